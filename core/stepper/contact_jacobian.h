@@ -1,0 +1,126 @@
+#pragma once
+
+#include "core/stepper/contact_rows.h"
+
+namespace touchstone {
+
+/// x -> omega x x as a matrix on a displacement: d(omega x r) = spin_matrix(omega) dr.
+inline Matrix<2> spin_matrix(const Angular<2>& omega) {
+  return (Matrix<2>() << 0, -omega[0], omega[0], 0).finished();
+}
+inline Matrix<3> spin_matrix(const Angular<3>& omega) { return -lever(Vector<3>(omega)); }
+
+/// Adds derivatives of a contact's rows to the Jacobian, given as coefficients of the motions that they
+/// depend on. How those motions follow from the unknowns (chain rule through q' = q (+) h nu', Eq. 2, and
+/// through a plane's chart) is in this one place. Side 0 is body 1, side 1 is body 2.
+template <int Dim>
+class ContactJacobian {
+ public:
+  ContactJacobian(const ContactPair<Dim>& pair, const ContactLayout& at, const ContactState<Dim>& state,
+                  double h, Eigen::MatrixXd& jacobian)
+      : pair_(pair), at_(at), state_(state), h_(h), j_(jacobian) {}
+
+  /// Coefficient of d p: the body's centre moves.
+  template <typename Derived>
+  void centre(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const Eigen::Index column = state_.body[k].column;
+    if (column < 0) return;
+    j_.template block<Derived::RowsAtCompileTime, Dim>(row, column) += h_ * coefficient;
+  }
+
+  /// Coefficient of d theta: the body turns about world axes.
+  template <typename Derived>
+  void turn(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const Eigen::Index column = state_.body[k].column;
+    if (column < 0) return;
+    j_.template block<Derived::RowsAtCompileTime, kAngular>(row, column + Dim) +=
+        coefficient * state_.body[k].turn;
+  }
+
+  /// Coefficient of d v' of the body.
+  template <typename Derived>
+  void velocity(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const Eigen::Index column = state_.body[k].column;
+    if (column < 0) return;
+    j_.template block<Derived::RowsAtCompileTime, Dim>(row, column) += coefficient;
+  }
+
+  /// Coefficient of d omega' of the body.
+  template <typename Derived>
+  void spin(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const Eigen::Index column = state_.body[k].column;
+    if (column < 0) return;
+    j_.template block<Derived::RowsAtCompileTime, kAngular>(row, column + Dim) += coefficient;
+  }
+
+  /// Coefficient of d a: the closest point moves. On a plane d a = chart d s + d p + d theta x r.
+  template <typename Derived>
+  void point(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    constexpr int rows = Derived::RowsAtCompileTime;
+    if (side(k).kind == SideKind::plane) {
+      j_.template block<rows, Dim - 1>(row, point_column(k)) += coefficient * state_.side[k].chart;
+      centre(row, k, coefficient);
+      turn(row, k, coefficient * lever(state_.side[k].arm));
+    } else {
+      j_.template block<rows, Dim>(row, point_column(k)) += coefficient;
+    }
+  }
+
+  /// Coefficient of d xi = d a - d p - d theta x r: the closest point moves on its body.
+  template <typename Derived>
+  void relative(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    constexpr int rows = Derived::RowsAtCompileTime;
+    if (side(k).kind == SideKind::plane) {
+      j_.template block<rows, Dim - 1>(row, point_column(k)) += coefficient * state_.side[k].chart;
+    } else {
+      j_.template block<rows, Dim>(row, point_column(k)) += coefficient;
+      centre(row, k, -coefficient);
+      turn(row, k, -coefficient * lever(state_.side[k].arm));
+    }
+  }
+
+  /// Coefficient of d N_1 or of d N_2 as they are, not normalised.
+  template <typename Derived>
+  void body_normal(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const SideState<Dim>& s = state_.side[k];
+    relative(row, k, coefficient * s.curvature);
+    turn(row, k, coefficient * lever(s.normal));
+    multipliers(row, k, coefficient);
+  }
+
+  /// Coefficient of d n, the frame's unit normal N_2 / |N_2|.
+  template <typename Derived>
+  void frame(Eigen::Index row, const Eigen::MatrixBase<Derived>& coefficient) {
+    constexpr std::size_t kOwner = 1;
+    const Vector<Dim>& n = state_.frame.normal;
+    if (side(kOwner).kind != SideKind::plane) relative(row, kOwner, coefficient * state_.frame_curvature);
+    turn(row, kOwner, coefficient * lever(n));
+    if (side(kOwner).kind == SideKind::intersection) {
+      multipliers(row, kOwner, (coefficient - (coefficient * n) * n.transpose()) / state_.normal_length);
+    }
+  }
+
+ private:
+  static constexpr int kAngular = Dimension<Dim>::angular;
+
+  [[nodiscard]] const Side<Dim>& side(std::size_t k) const { return k == 0 ? pair_.side_1 : pair_.side_2; }
+  [[nodiscard]] Eigen::Index point_column(std::size_t k) const { return k == 0 ? at_.point_1 : at_.point_2; }
+
+  /// Coefficient of sum_i gradients_i d l_i.
+  template <typename Derived>
+  void multipliers(Eigen::Index row, std::size_t k, const Eigen::MatrixBase<Derived>& coefficient) {
+    const Eigen::Index first = k == 0 ? at_.multipliers_1 : at_.multipliers_2;
+    for (int i = 0; i < side(k).multipliers(); ++i) {
+      j_.template block<Derived::RowsAtCompileTime, 1>(row, first + i) +=
+          coefficient * state_.side[k].gradients[static_cast<std::size_t>(i)];
+    }
+  }
+
+  const ContactPair<Dim>& pair_;
+  const ContactLayout& at_;
+  const ContactState<Dim>& state_;
+  double h_;
+  Eigen::MatrixXd& j_;
+};
+
+}  // namespace touchstone

@@ -1,0 +1,283 @@
+#include "core/stepper/step_problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// p_vp = -h omega x (I omega), the gyroscopic impulse; none in the plane.
+Angular<2> gyroscopic(const Angular<2>&, const Inertia<2>&) { return Angular<2>(0.0); }
+Angular<3> gyroscopic(const Angular<3>& omega, const Inertia<3>& inertia) {
+  return -omega.cross(Vector<3>(inertia * omega));
+}
+
+}  // namespace
+
+template <int Dim>
+Scale scene_scale(const Scene<Dim>& scene) {
+  Scale scale;
+  double size = 0;
+  for (const auto& body : scene.bodies) {
+    if (body.fixed) continue;
+    const double radius = make_surface(body.shape)->bounding_ball().radius;
+    if (std::isfinite(radius)) size = std::max(size, radius);
+  }
+  if (size > 0) scale.length = size;
+  const double g = scene.gravity.norm();
+  scale.velocity = g > 0 ? std::sqrt(g * scale.length) : scale.length;
+  return scale;
+}
+
+template <int Dim>
+StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene) {
+  row_options_.scale = scene_scale(scene);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    place_.push_back(scene.bodies[i].fixed ? -1 : static_cast<int>(moving_.size()));
+    if (!scene.bodies[i].fixed) moving_.push_back({static_cast<int>(i), scene.bodies[i].mass});
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::set_form(FrictionForm form) {
+  row_options_.form = form;
+  assign_bounds();
+}
+
+template <int Dim>
+void StepProblem<Dim>::prepare(std::span<const BodyState<Dim>> state, double h,
+                               const std::vector<ContactPair<Dim>>& contacts) {
+  row_options_.h = h;
+  start_.assign(state.begin(), state.end());
+  contacts_ = contacts;
+  prepared_.resize(contacts.size());
+  if (states_.size() < contacts.size()) states_.resize(contacts.size());
+  for (auto& moving : moving_) prepare_body(moving);
+  for (std::size_t i = 0; i < contacts.size(); ++i) prepare_contact(i);
+  layout_.assign(moving_bodies(), contacts_);
+  assign_bounds();
+}
+
+template <int Dim>
+void StepProblem<Dim>::prepare_body(Moving& moving) const {
+  const auto index = static_cast<std::size_t>(moving.body);
+  const Body<Dim>& body = scene_.bodies[index];
+  const BodyState<Dim>& state = start_[index];
+  const double h = row_options_.h;
+  moving.inertia = world_inertia(body.inertia, state.pose.rotation);
+  const Angular<Dim> omega = state.velocity.template tail<Dimension<Dim>::angular>();
+  moving.momentum.template head<Dim>() =
+      moving.mass * state.velocity.template head<Dim>() + h * (moving.mass * scene_.gravity + body.force);
+  moving.momentum.template tail<Dimension<Dim>::angular>() =
+      moving.inertia * omega + h * gyroscopic(omega, moving.inertia);
+  const double gyration = std::sqrt(body.inertia.trace() / (Dimension<Dim>::angular * moving.mass));
+  moving.row_scale.setConstant(1 / (moving.mass * row_options_.scale.velocity));
+  moving.row_scale.template tail<Dimension<Dim>::angular>() /= gyration;
+}
+
+template <int Dim>
+void StepProblem<Dim>::prepare_contact(std::size_t i) {
+  const ContactPair<Dim>& pair = contacts_[i];
+  PreparedContact<Dim>& prepared = prepared_[i];
+  prepared.origin = start_[static_cast<std::size_t>(pair.body_1)].pose.position;
+  prepared.semi_axes = pair.law.semi_axes();
+  prepared.active = (prepared.semi_axes.array() != 0).template cast<double>();
+  prepared.mass = kInfinity;
+  for (const int body : {pair.body_1, pair.body_2}) {
+    const Body<Dim>& b = scene_.bodies[static_cast<std::size_t>(body)];
+    if (!b.fixed) prepared.mass = std::min(prepared.mass, b.mass);
+  }
+  const double largest = prepared.semi_axes.template head<Dim - 1>().maxCoeff();
+  prepared.rho = 1 / (3 * largest * largest);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const Side<Dim>& side = k == 0 ? pair.side_1 : pair.side_2;
+    if (side.kind != SideKind::plane) continue;
+    const HalfSpace<Dim>& surface = *side.surface->plane();
+    const Pose<Dim>& pose = start_[static_cast<std::size_t>(k == 0 ? pair.body_1 : pair.body_2)].pose;
+    PlaneAtStart<Dim>& plane = prepared.plane[k];
+    plane.rotation = pose.rotation.matrix();
+    plane.position = pose.position - prepared.origin;
+    plane.basis = plane_basis(surface.normal);
+    const Vector<Dim> normal = plane.rotation * surface.normal;
+    plane.foot = (normal.dot(plane.position) + surface.offset) * normal;
+    plane.foot_body = plane.rotation.transpose() * (plane.foot - plane.position);
+  }
+  states_[i].side[0].reserve(pair.side_1);
+  states_[i].side[1].reserve(pair.side_2);
+}
+
+template <int Dim>
+void StepProblem<Dim>::assign_bounds() {
+  lower_.setConstant(layout_.size(), -kInfinity);
+  upper_.setConstant(layout_.size(), kInfinity);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLayout& at = layout_.contact(i);
+    lower_[at.normal] = 0;
+    // In the projection form sigma = |w| is an equation.
+    lower_[at.slip] = row_options_.form == FrictionForm::fritz_john ? 0 : -kInfinity;
+    for (int l = 0; l < contacts_[i].side_1.multipliers(); ++l) lower_[at.multipliers_1 + l] = 0;
+    for (int l = 0; l < contacts_[i].side_2.multipliers(); ++l) lower_[at.multipliers_2 + l] = 0;
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
+  for (std::size_t b = 0; b < moving_.size(); ++b) {
+    const Eigen::Index at = layout_.velocity(static_cast<int>(b));
+    const Moving& moving = moving_[b];
+    z.template segment<Dim>(at) = moving.momentum.template head<Dim>() / moving.mass;
+    z.template segment<Dimension<Dim>::angular>(at + Dim) =
+        moving.inertia.inverse() * moving.momentum.template tail<Dimension<Dim>::angular>();
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::start_velocity(Eigen::VectorXd& z) const {
+  for (std::size_t b = 0; b < moving_.size(); ++b) {
+    z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b))) =
+        start_[static_cast<std::size_t>(moving_[b].body)].velocity;
+  }
+}
+
+/// State at the end of the step: q' = q (+) h nu' (Eq. 4), positions relative to `origin`.
+template <int Dim>
+BodyAtEnd<Dim> StepProblem<Dim>::body_at_end(int body, const Vector<Dim>& origin,
+                                             const Eigen::VectorXd& z) const {
+  const auto index = static_cast<std::size_t>(body);
+  BodyAtEnd<Dim> end;
+  end.pose = start_[index].pose;
+  end.pose.position -= origin;
+  const int place = place_[index];
+  if (place < 0) return end;
+  end.column = layout_.velocity(place);
+  end.nu = z.template segment<Dimension<Dim>::velocity>(end.column);
+  end.turn = turn_jacobian(Angular<Dim>(end.nu.template tail<Dimension<Dim>::angular>()), row_options_.h);
+  end.pose = advanced(end.pose, end.nu, row_options_.h);
+  end.row_scale = moving_[static_cast<std::size_t>(place)].row_scale;
+  return end;
+}
+
+template <int Dim>
+void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z) const {
+  const ContactPair<Dim>& pair = contacts_[i];
+  ContactState<Dim>& state = states_[i];
+  state.body[0] = body_at_end(pair.body_1, prepared_[i].origin, z);
+  state.body[1] = body_at_end(pair.body_2, prepared_[i].origin, z);
+  evaluate_contact(pair, prepared_[i], layout_.contact(i), row_options_, z, state);
+}
+
+/// M nu' - M nu - p_app - p_vp, the first row of Eq. 10 without the contacts' wrenches.
+template <int Dim>
+void StepProblem<Dim>::momentum_rows(const Eigen::VectorXd& z, Eigen::VectorXd& f,
+                                     Eigen::MatrixXd* jacobian) const {
+  constexpr int kAngular = Dimension<Dim>::angular;
+  for (std::size_t b = 0; b < moving_.size(); ++b) {
+    const Eigen::Index at = layout_.velocity(static_cast<int>(b));
+    const Moving& moving = moving_[b];
+    const double linear = moving.row_scale[0];
+    const double angular = moving.row_scale[Dim];
+    f.template segment<Dim>(at) =
+        linear * (moving.mass * z.template segment<Dim>(at) - moving.momentum.template head<Dim>());
+    f.template segment<kAngular>(at + Dim) =
+        angular *
+        (moving.inertia * z.template segment<kAngular>(at + Dim) - moving.momentum.template tail<kAngular>());
+    if (jacobian == nullptr) continue;
+    jacobian->template block<Dim, Dim>(at, at).diagonal().array() += linear * moving.mass;
+    jacobian->template block<kAngular, kAngular>(at + Dim, at + Dim) += angular * moving.inertia;
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
+                                Eigen::MatrixXd* jacobian) const {
+  if (jacobian != nullptr) jacobian->setZero();
+  momentum_rows(z, f, jacobian);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    evaluate_state(i, z);
+    contact_rows(contacts_[i], prepared_[i], layout_.contact(i), row_options_, states_[i], f, jacobian);
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
+                                  Eigen::VectorXd& z) const {
+  const ContactPair<Dim>& pair = contacts_[i];
+  const ContactLayout& at = layout_.contact(i);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const bool first = k == 0;
+    const Side<Dim>& side = first ? pair.side_1 : pair.side_2;
+    const Eigen::Index column = first ? at.point_1 : at.point_2;
+    const Vector<Dim>& relative = first ? a_1 : a_2;
+    if (side.kind == SideKind::plane) {
+      const PlaneAtStart<Dim>& plane = prepared_[i].plane[k];
+      const Pose<Dim> pose = body_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z).pose;
+      const PlaneChart<Dim> chart = pose.rotation.matrix() * plane.basis;
+      z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
+    } else {
+      z.template segment<Dim>(column) = relative;
+    }
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const {
+  for (std::size_t b = 0; b < moving_.size(); ++b) {
+    BodyState<Dim>& body = state[static_cast<std::size_t>(moving_[b].body)];
+    body.velocity = z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b)));
+    body.pose =
+        advanced(start_[static_cast<std::size_t>(moving_[b].body)].pose, body.velocity, row_options_.h);
+  }
+}
+
+template <int Dim>
+ContactImpulse<Dim> StepProblem<Dim>::impulse(std::size_t i, const Eigen::VectorXd& z) const {
+  evaluate_state(i, z);
+  const ContactState<Dim>& state = states_[i];
+  const double unit = prepared_[i].mass * row_options_.scale.velocity;
+  ContactImpulse<Dim> impulse;
+  impulse.body_a = contacts_[i].body_1;
+  impulse.body_b = contacts_[i].body_2;
+  impulse.point_a = prepared_[i].origin + state.side[0].point;
+  impulse.point_b = prepared_[i].origin + state.side[1].point;
+  impulse.normal = state.frame.normal;
+  impulse.tangents = state.frame.tangents;
+  impulse.normal_impulse = unit * state.p;
+  impulse.friction_impulse = unit * prepared_[i].semi_axes.cwiseProduct(state.y);
+  return impulse;
+}
+
+template <int Dim>
+std::string StepProblem<Dim>::row_name(Eigen::Index row) const {
+  const auto body_name = [this](int body) { return scene_.bodies[static_cast<std::size_t>(body)].name; };
+  if (row < layout_.velocity(moving_bodies())) {
+    const auto place = static_cast<std::size_t>(row / Dimension<Dim>::velocity);
+    return fmt::format("momentum of {}", body_name(moving_[place].body));
+  }
+  const auto named = [&](std::size_t i, const char* what) {
+    return fmt::format("{} of {} on {}", what, body_name(contacts_[i].body_1),
+                       body_name(contacts_[i].body_2));
+  };
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLayout& at = layout_.contact(i);
+    if (row >= at.point_1 && row < at.friction) return named(i, "closest points");
+    if (row >= at.friction && row < at.friction + Dimension<Dim>::friction) return named(i, "friction");
+    if (row == at.normal) return named(i, "gap");
+    if (row == at.slip) return named(i, "slip speed");
+    if (row >= at.multipliers_1 && row < at.multipliers_2 + contacts_[i].side_2.multipliers()) {
+      return named(i, "active inequalities");
+    }
+  }
+  return MixedComplementarityProblem::row_name(row);
+}
+
+template Scale scene_scale(const Scene<2>&);
+template Scale scene_scale(const Scene<3>&);
+template class StepProblem<2>;
+template class StepProblem<3>;
+
+}  // namespace touchstone
