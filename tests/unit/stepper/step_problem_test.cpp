@@ -38,7 +38,8 @@ Scene<2> planar_scene() {
 Scene<3> spatial_scene() {
   Scene<3> scene;
   scene.gravity = {0.3, -0.2, -9.81};
-  scene.contact_law = {.mu = 0.4, .e_t = 0.8, .e_o = 1.2, .e_r = 0.3, .restitution = 0, .tangent = {1, 0.2, 0.1}};
+  scene.contact_law = {
+      .mu = 0.4, .e_t = 0.8, .e_o = 1.2, .e_r = 0.3, .restitution = 0, .tangent = {1, 0.2, 0.1}};
   Body<3> ball;
   ball.name = "ball";
   ball.mass = 1.3;
