@@ -123,19 +123,13 @@ void multiplier_rows(const RowContext<Dim>& c) {
   }
 }
 
-/// 0 <= p_n _|_ f(a_2) >= 0, Eq. 6; of an intersection max_j f_j(a_2), Eq. 19.
+/// 0 <= p_n _|_ f(a_2) >= 0, Eq. 6.
 template <int Dim>
 void workspace_gap_row(const RowContext<Dim>& c) {
   const Pose<Dim>& pose = c.state.body[0].pose;
   const Matrix<Dim> rotation = pose.rotation.matrix();
   const Vector<Dim> arm = c.state.side[1].point - pose.position;
-  const Vector<Dim> x_body = rotation.transpose() * arm;
-  const ConvexSurface<Dim>& surface = *c.side(0).surface;
-  int largest = 0;
-  for (int i = 1; i < surface.count(); ++i) {
-    if (surface.value(i, x_body) > surface.value(largest, x_body)) largest = i;
-  }
-  const SurfaceJet<Dim> jet = surface.jet(largest, x_body);
+  const SurfaceJet<Dim> jet = c.side(0).surface->jet(0, Vector<Dim>(rotation.transpose() * arm));
   const double per_length = 1 / c.options.scale.length;
   c.f[c.at.normal] = per_length * jet.value;
   if (c.jacobian == nullptr) return;
@@ -305,7 +299,9 @@ void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prep
   row = surface_rows(context, row);
   assert(row == at.friction);
   multiplier_rows(context);
-  if (options.gap == GapFunction::workspace) {
+  // Not Eq. 19, max_j f_j(a_2), for an intersection: where a_2 lies inside the body but on the plane of
+  // another of its faces, that maximum is 0 and the bodies overlap unhindered.
+  if (options.gap == GapFunction::workspace && pair.side_1.kind == SideKind::smooth) {
     workspace_gap_row(context);
   } else {
     distance_gap_row(context);

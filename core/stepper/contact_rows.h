@@ -9,8 +9,12 @@ namespace touchstone {
 
 /// Which gap the normal complementarity is written with.
 enum class GapFunction {
-  workspace,  ///< f(a_2), the value of body 1's inequality at body 2's closest point (Eq. 6)
-  distance,   ///< psi = n . (a_1 - a_2), the signed distance
+  /// f(a_2), the value of body 1's inequality at body 2's closest point (Eq. 6). Only where body 1 is one
+  /// inequality: for an
+  /// intersection the signed distance is used, since Eq. 19 does not keep bodies apart (see
+  /// contact_rows.cpp).
+  workspace,
+  distance,  ///< psi = n . (a_1 - a_2), the signed distance
 };
 
 /// Units that make rows comparable: lengths over `length`, velocities over `velocity`.
