@@ -41,6 +41,14 @@ struct ContactImpulse {
   FrictionVector<Dim> friction_impulse = FrictionVector<Dim>::Zero();  ///< p_t, p_o [N s], p_r [N m s]
 };
 
+/// What a joint did in the last step, as wrenches [N s; N m s] about the bodies' centres of mass.
+template <int Dim>
+struct JointImpulse {
+  int joint = 0;  ///< index in Scene::joints
+  Twist<Dim> on_a = Twist<Dim>::Zero();
+  Twist<Dim> on_b = Twist<Dim>::Zero();
+};
+
 /// What a method can represent; a conformance test checks that each claim is true.
 struct Capabilities {
   bool contact_impulses = true;  ///< contacts() tells what acted in the last step
@@ -65,6 +73,8 @@ class Method {
   [[nodiscard]] virtual std::span<const BodyState<Dim>> state() const = 0;
   /// The contacts of the last step, those without an impulse included where the method keeps them.
   [[nodiscard]] virtual std::span<const ContactImpulse<Dim>> contacts() const = 0;
+  /// The joints' impulses of the last step; none from a method without joints or one that does not tell.
+  [[nodiscard]] virtual std::span<const JointImpulse<Dim>> joints() const { return {}; }
   /// Advances by h [s], h > 0. If it is not solved the state is as it was.
   [[nodiscard]] virtual StepReport step(double h) = 0;
   /// Every option with the value in force, defaults included.

@@ -34,18 +34,17 @@ void for_each_subset(int count, const Use& use) {
   }
 }
 
-/// A unit normal of the plane through Dim points; zero if they do not span one.
-Vector<2> plane_normal(const std::array<Vector<2>, 2>& p) {
+/// A normal of the plane through Dim points, as long as the facet that they span is large [m or m^2].
+Vector<2> facet_normal(const std::array<Vector<2>, 2>& p) {
   const Vector<2> edge = p[1] - p[0];
-  return edge.norm() > 0 ? Vector<2>(Vector<2>(edge.y(), -edge.x()).normalized())
-                         : Vector<2>(Vector<2>::Zero());
+  return {edge.y(), -edge.x()};
 }
-Vector<3> plane_normal(const std::array<Vector<3>, 3>& p) {
+Vector<3> facet_normal(const std::array<Vector<3>, 3>& p) {
   const Vector<3> a = p[1] - p[0];
   const Vector<3> b = p[2] - p[0];
   const Vector<3> normal = a.cross(b);
-  return normal.norm() > kSame * a.norm() * b.norm() ? Vector<3>(normal.normalized())
-                                                     : Vector<3>(Vector<3>::Zero());
+  const bool collinear = normal.norm() <= kSame * a.norm() * b.norm();
+  return collinear ? Vector<3>(Vector<3>::Zero()) : normal;
 }
 
 template <int Dim>
@@ -59,6 +58,126 @@ double extent(const std::vector<Vector<Dim>>& points) {
   return (high - low).norm();
 }
 
+/// Appends `point` unless one of `points` is within `tolerance` of it. Copies would make facets of rounding
+/// errors.
+template <int Dim>
+void add_distinct(const Vector<Dim>& point, double tolerance, std::vector<Vector<Dim>>& points) {
+  const bool known = std::any_of(points.begin(), points.end(),
+                                 [&](const auto& p) { return (p - point).norm() <= tolerance; });
+  if (!known) points.push_back(point);
+}
+
+/// The hull's faces; each from the largest of the facets that span it, whose normal is the most exact.
+template <int Dim>
+class Faces {
+ public:
+  explicit Faces(double tolerance) : tolerance_(tolerance) {}
+
+  void add(const Vector<Dim>& normal, double offset, double facet_size) {
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if ((normals[i] - normal).norm() >= kSame || std::abs(offsets[i] - offset) > tolerance_) continue;
+      if (facet_size > sizes_[i]) {
+        normals[i] = normal;
+        offsets[i] = offset;
+        sizes_[i] = facet_size;
+      }
+      return;
+    }
+    normals.push_back(normal);
+    offsets.push_back(offset);
+    sizes_.push_back(facet_size);
+  }
+
+  std::vector<Vector<Dim>> normals;
+  std::vector<double> offsets;
+
+ private:
+  double tolerance_;
+  std::vector<double> sizes_;
+};
+
+template <int Dim>
+Faces<Dim> hull_faces(const std::vector<Vector<Dim>>& points, double tolerance) {
+  Faces<Dim> faces(tolerance);
+  for_each_subset<Dim>(static_cast<int>(points.size()), [&](const std::array<int, Dim>& index) {
+    std::array<Vector<Dim>, Dim> corner;
+    for (std::size_t i = 0; i < Dim; ++i) corner[i] = points[static_cast<std::size_t>(index[i])];
+    const Vector<Dim> spanned = facet_normal(corner);
+    if (spanned.isZero(0)) return;
+    const Vector<Dim> normal = spanned.normalized();
+    double highest = 0;
+    double lowest = 0;
+    for (const auto& p : points) {
+      const double height = normal.dot(p - corner[0]);
+      highest = std::max(highest, height);
+      lowest = std::min(lowest, height);
+    }
+    const double offset = normal.dot(corner[0]);
+    if (highest <= tolerance && lowest < -tolerance) faces.add(normal, offset, spanned.norm());
+    if (lowest >= -tolerance && highest > tolerance) faces.add(-normal, -offset, spanned.norm());
+  });
+  return faces;
+}
+
+/// The points where Dim of the planes meet and that no plane cuts off.
+template <int Dim>
+std::vector<Vector<Dim>> corners_of(const std::vector<Vector<Dim>>& normals,
+                                    const std::vector<double>& offsets, double tolerance) {
+  std::vector<Vector<Dim>> corners;
+  for_each_subset<Dim>(static_cast<int>(normals.size()), [&](const std::array<int, Dim>& index) {
+    Matrix<Dim> a;
+    Vector<Dim> b;
+    for (int i = 0; i < Dim; ++i) {
+      const auto plane = static_cast<std::size_t>(index[static_cast<std::size_t>(i)]);
+      a.row(i) = normals[plane].transpose();
+      b[i] = offsets[plane];
+    }
+    if (std::abs(a.determinant()) < kSame) return;
+    const Vector<Dim> corner = a.inverse() * b;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (normals[i].dot(corner) > offsets[i] + tolerance) return;
+    }
+    add_distinct(corner, tolerance, corners);
+  });
+  return corners;
+}
+
+/// The hull of distinct points; with no more than Dim faces if they are flat.
+template <int Dim>
+Polytope<Dim> hull_of(const std::vector<Vector<Dim>>& points, double tolerance) {
+  const Faces<Dim> faces = hull_faces(points, tolerance);
+  Polytope<Dim> hull{faces.normals, faces.offsets, {}};
+  for (const auto& p : points) {
+    int touching = 0;
+    for (std::size_t i = 0; i < hull.normals.size(); ++i) {
+      if (hull.normals[i].dot(p) >= hull.offsets[i] - tolerance) ++touching;
+    }
+    if (touching >= Dim) hull.vertices.push_back(p);
+  }
+  return hull;
+}
+
+/// Replaces each face by the plane of the input that it lies in: exact, where the hull's is computed. False
+/// if a face lies in none: a bounded set is its corners' hull, an unbounded one has a face more.
+template <int Dim>
+bool adopt_planes(const std::vector<Vector<Dim>>& normals, const std::vector<double>& offsets, double size,
+                  Polytope<Dim>& hull) {
+  constexpr double kSameFace = 1e3 * kSame;  // the hull's faces are differences of computed corners
+  for (std::size_t face = 0; face < hull.normals.size(); ++face) {
+    const auto distance = [&](std::size_t i) {
+      return (normals[i] - hull.normals[face]).norm() + std::abs(offsets[i] - hull.offsets[face]) / size;
+    };
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < normals.size(); ++i) {
+      if (distance(i) < distance(nearest)) nearest = i;
+    }
+    if (distance(nearest) >= kSameFace) return false;
+    hull.normals[face] = normals[nearest];
+    hull.offsets[face] = offsets[nearest];
+  }
+  return true;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -68,43 +187,16 @@ Polytope<Dim> polytope_from_vertices(const std::vector<Vector<Dim>>& points, con
                      fmt::format("at least {} points", Dim + 1));
   }
   for (const auto& p : points) {
-    if (!p.allFinite())
+    if (!p.allFinite()) {
       throw InputError(field + ".vertices", "a point that is not finite", "finite numbers [m]");
+    }
   }
   const double tolerance = kSame * extent(points);
-  Polytope<Dim> hull;
-  const auto add_face = [&](const Vector<Dim>& normal, double offset) {
-    for (std::size_t i = 0; i < hull.normals.size(); ++i) {
-      if ((hull.normals[i] - normal).norm() < kSame && std::abs(hull.offsets[i] - offset) <= tolerance)
-        return;
-    }
-    hull.normals.push_back(normal);
-    hull.offsets.push_back(offset);
-  };
-  for_each_subset<Dim>(static_cast<int>(points.size()), [&](const std::array<int, Dim>& index) {
-    std::array<Vector<Dim>, Dim> corner;
-    for (std::size_t i = 0; i < Dim; ++i) corner[i] = points[static_cast<std::size_t>(index[i])];
-    const Vector<Dim> normal = plane_normal(corner);
-    if (normal.isZero()) return;
-    double highest = 0;
-    double lowest = 0;
-    for (const auto& p : points) {
-      highest = std::max(highest, normal.dot(p - corner[0]));
-      lowest = std::min(lowest, normal.dot(p - corner[0]));
-    }
-    if (highest <= tolerance && lowest < -tolerance) add_face(normal, normal.dot(corner[0]));
-    if (lowest >= -tolerance && highest > tolerance) add_face(-normal, -normal.dot(corner[0]));
-  });
-  if (hull.normals.size() <= Dim)
+  std::vector<Vector<Dim>> distinct;
+  for (const auto& p : points) add_distinct(p, tolerance, distinct);
+  Polytope<Dim> hull = hull_of(distinct, tolerance);
+  if (hull.normals.size() <= Dim) {
     throw InputError(field + ".vertices", "a flat set of points", "a solid hull");
-  for (const auto& p : points) {
-    int faces = 0;
-    for (std::size_t i = 0; i < hull.normals.size(); ++i) {
-      if (hull.normals[i].dot(p) >= hull.offsets[i] - tolerance) ++faces;
-    }
-    const bool known = std::any_of(hull.vertices.begin(), hull.vertices.end(),
-                                   [&](const auto& v) { return (v - p).norm() <= tolerance; });
-    if (faces >= Dim && !known) hull.vertices.push_back(p);
   }
   return hull;
 }
@@ -125,31 +217,15 @@ Polytope<Dim> polytope_from_planes(const std::vector<Vector<Dim>>& normals,
     }
     size = std::max(size, std::abs(offsets[i]));
   }
-  std::vector<Vector<Dim>> corners;
-  for_each_subset<Dim>(static_cast<int>(normals.size()), [&](const std::array<int, Dim>& index) {
-    Matrix<Dim> a;
-    Vector<Dim> b;
-    for (int i = 0; i < Dim; ++i) {
-      a.row(i) = normals[static_cast<std::size_t>(index[static_cast<std::size_t>(i)])].transpose();
-      b[i] = offsets[static_cast<std::size_t>(index[static_cast<std::size_t>(i)])];
-    }
-    if (std::abs(a.determinant()) < kSame) return;
-    const Vector<Dim> corner = a.inverse() * b;
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      if (normals[i].dot(corner) > offsets[i] + kSame * size) return;
-    }
-    corners.push_back(corner);
-  });
-  if (corners.size() <= Dim) {
+  const std::vector<Vector<Dim>> corners = corners_of(normals, offsets, kSame * size);
+  Polytope<Dim> hull;
+  if (corners.size() > Dim) hull = hull_of(corners, kSame * extent(corners));
+  if (hull.normals.size() <= Dim) {
     throw InputError(field + ".planes", "an empty, flat or unbounded set",
                      "a bounded polytope with an inside");
   }
-  Polytope<Dim> hull = polytope_from_vertices(corners, field);
-  // A bounded set is its corners' hull; an unbounded one has a hull face that is none of the given planes.
-  for (const auto& normal : hull.normals) {
-    const bool given = std::any_of(normals.begin(), normals.end(),
-                                   [&](const auto& n) { return (n - normal).norm() < 1e3 * kSame; });
-    if (!given) throw InputError(field + ".planes", "an unbounded set", "a bounded polytope");
+  if (!adopt_planes(normals, offsets, size, hull)) {
+    throw InputError(field + ".planes", "an unbounded set", "a bounded polytope");
   }
   return hull;
 }

@@ -1,6 +1,7 @@
 #include "core/model/scene.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -72,6 +73,24 @@ void validate_body(const Body<Dim>& body) {
   require_finite(body.force.allFinite(), field + " force");
 }
 
+template <int Dim>
+void validate_joint(const Joint<Dim>& joint, const std::vector<Body<Dim>>& bodies) {
+  const int count = static_cast<int>(bodies.size());
+  for (const int index : {joint.body_a, joint.body_b}) {
+    if (index < 0 || index >= count)
+      throw InputError("joint body", std::to_string(index), "an existing body");
+  }
+  if (joint.body_a == joint.body_b) throw InputError("joint", "one body twice", "two different bodies");
+  if (bodies[static_cast<std::size_t>(joint.body_a)].fixed &&
+      bodies[static_cast<std::size_t>(joint.body_b)].fixed) {
+    throw InputError("joint", "two fixed bodies", "at least one body that moves");
+  }
+  require_finite(joint.anchor.allFinite(), "joint.anchor");
+  if (!(std::abs(joint.axis.norm() - 1) <= 1e-9)) {
+    throw InputError("joint.axis (its length)", joint.axis.norm(), "a unit vector, within 1e-9");
+  }
+}
+
 }  // namespace
 
 template <>
@@ -92,6 +111,14 @@ const ContactLaw<Dim>& Scene<Dim>::law(int body_a, int body_b) const {
     }
   }
   return contact_law;
+}
+
+template <int Dim>
+bool Scene<Dim>::jointed(int body_a, int body_b) const {
+  return std::any_of(joints.begin(), joints.end(), [&](const Joint<Dim>& joint) {
+    return (joint.body_a == body_a && joint.body_b == body_b) ||
+           (joint.body_a == body_b && joint.body_b == body_a);
+  });
 }
 
 template <int Dim>
@@ -123,6 +150,7 @@ void Scene<Dim>::validate() const {
     if (pair.body_a == pair.body_b) throw InputError("pair", "one body twice", "two different bodies");
     validate_law(pair.law, "pair");
   }
+  for (const auto& joint : joints) validate_joint(joint, bodies);
 }
 
 template <int Dim>

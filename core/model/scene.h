@@ -44,6 +44,25 @@ struct PairLaw {
   ContactLaw<Dim> law{};
 };
 
+enum class JointType {
+  ball,    ///< one point of both bodies stays together; in the plane the same as a hinge
+  hinge,   ///< and an axis; both may turn about it
+  slider,  ///< no relative turn, and relative motion only along an axis
+  fixed,   ///< no relative motion
+};
+
+/// A bilateral constraint between two bodies ("all of the discussion holds in the presence of bilateral
+/// constraints", section III). Two bodies that a joint couples do not collide with each other.
+template <int Dim>
+struct Joint {
+  JointType type = JointType::ball;
+  int body_a = 0;
+  int body_b = 0;
+  Vector<Dim> anchor = Vector<Dim>::Zero();  ///< world frame, in the initial pose [m]
+  Vector<Dim> axis =
+      Vector<Dim>::UnitX();  ///< unit, world frame, in the initial pose; of a slider, and of a hinge in space
+};
+
 /// A scene is pure data in SI units; methods load it, the judge reads it.
 template <int Dim>
 struct Scene {
@@ -51,9 +70,12 @@ struct Scene {
   ContactLaw<Dim> contact_law{};
   std::vector<PairLaw<Dim>> pair_laws;
   std::vector<Body<Dim>> bodies;
+  std::vector<Joint<Dim>> joints;
 
   /// The law of a pair: its own, or the default.
   [[nodiscard]] const ContactLaw<Dim>& law(int body_a, int body_b) const;
+  /// Whether a joint couples the two bodies.
+  [[nodiscard]] bool jointed(int body_a, int body_b) const;
   /// Index of the body called `name`. @throws InputError if there is none
   [[nodiscard]] int body(const std::string& name) const;
   /// @throws InputError naming the first field that makes no sense, its value and what is allowed

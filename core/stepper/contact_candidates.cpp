@@ -32,7 +32,7 @@ ContactCandidates<Dim>::ContactCandidates(const Scene<Dim>& scene) : scene_(scen
     for (int j = i + 1; j < count; ++j) {
       const Body<Dim>& a = scene.bodies[static_cast<std::size_t>(i)];
       const Body<Dim>& b = scene.bodies[static_cast<std::size_t>(j)];
-      if (a.fixed && b.fixed) continue;
+      if ((a.fixed && b.fixed) || scene.jointed(i, j)) continue;
       Side<Dim> side_a = make_side(surface(i));
       Side<Dim> side_b = make_side(surface(j));
       if (side_a.kind == SideKind::plane && side_b.kind == SideKind::plane) {

@@ -16,7 +16,7 @@ namespace touchstone {
 template <int Dim>
 class ContactCandidates {
  public:
-  /// One pair of bodies, not both fixed, and its surfaces.
+  /// One pair of bodies, not both fixed and not coupled by a joint, and its surfaces.
   struct Pair {
     ContactPair<Dim> contact{};
     bool selected = false;

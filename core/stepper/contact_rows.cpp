@@ -51,14 +51,14 @@ Eigen::Index closeness_rows(const RowContext<Dim>& c, Eigen::Index row) {
   c.f.template segment<Dim - 1>(row) = per_length * frame.tangents.transpose() * c.state.separation;
   if (c.jacobian != nullptr) {
     auto d = c.derivative();
-    d.point(row, 0, per_length * frame.tangents.transpose());
-    d.point(row, 1, -per_length * frame.tangents.transpose());
+    d.template point<Dim - 1>(row, 0, per_length * frame.tangents.transpose());
+    d.template point<Dim - 1>(row, 1, -per_length * frame.tangents.transpose());
     Eigen::Matrix<double, Dim - 1, Dim> on_normal;
     for (int i = 0; i < Dim - 1; ++i) {
       on_normal.row(i) =
           per_length * c.state.separation.transpose() * frame.derivative[static_cast<std::size_t>(i)];
     }
-    d.frame(row, on_normal);
+    d.template frame<Dim - 1>(row, on_normal);
   }
   return row + Dim - 1;
 }
@@ -70,20 +70,20 @@ Eigen::Index alignment_rows(const RowContext<Dim>& c, Eigen::Index row) {
   if (c.side(0).kind == SideKind::intersection) {  // N_1 + n = 0 fixes the multipliers' scale as well
     c.f.template segment<Dim>(row) = normal_1 + frame.normal;
     if (c.jacobian != nullptr) {
-      c.derivative().body_normal(row, 0, Matrix<Dim>::Identity());
-      c.derivative().frame(row, Matrix<Dim>::Identity());
+      c.derivative().template body_normal<Dim>(row, 0, Matrix<Dim>::Identity());
+      c.derivative().template frame<Dim>(row, Matrix<Dim>::Identity());
     }
     return row + Dim;
   }
   c.f.template segment<Dim - 1>(row) = frame.tangents.transpose() * normal_1;
   if (c.jacobian != nullptr) {
     auto d = c.derivative();
-    d.body_normal(row, 0, frame.tangents.transpose());
+    d.template body_normal<Dim - 1>(row, 0, frame.tangents.transpose());
     Eigen::Matrix<double, Dim - 1, Dim> on_normal;
     for (int i = 0; i < Dim - 1; ++i) {
       on_normal.row(i) = normal_1.transpose() * frame.derivative[static_cast<std::size_t>(i)];
     }
-    d.frame(row, on_normal);
+    d.template frame<Dim - 1>(row, on_normal);
   }
   return row + Dim - 1;
 }
@@ -96,11 +96,12 @@ Eigen::Index surface_rows(const RowContext<Dim>& c, Eigen::Index row) {
     const SideState<Dim>& s = c.state.side[k];
     if (c.side(k).kind == SideKind::smooth) {
       c.f[row] = per_length * s.values[0];
-      if (c.jacobian != nullptr) c.derivative().relative(row, k, per_length * s.gradients[0].transpose());
+      if (c.jacobian != nullptr)
+        c.derivative().template relative<1>(row, k, per_length * s.gradients[0].transpose());
       ++row;
     } else if (c.side(k).kind == SideKind::intersection && k == 1) {
       c.f[row] = 0.5 * (s.normal.squaredNorm() - 1);
-      if (c.jacobian != nullptr) c.derivative().body_normal(row, 1, s.normal.transpose());
+      if (c.jacobian != nullptr) c.derivative().template body_normal<1>(row, 1, s.normal.transpose());
       ++row;
     }
   }
@@ -117,7 +118,8 @@ void multiplier_rows(const RowContext<Dim>& c) {
       const auto index = static_cast<std::size_t>(i);
       c.f[first + i] = -per_length * c.state.side[k].values[index];
       if (c.jacobian != nullptr) {
-        c.derivative().relative(first + i, k, -per_length * c.state.side[k].gradients[index].transpose());
+        c.derivative().template relative<1>(first + i, k,
+                                            -per_length * c.state.side[k].gradients[index].transpose());
       }
     }
   }
@@ -135,9 +137,9 @@ void workspace_gap_row(const RowContext<Dim>& c) {
   if (c.jacobian == nullptr) return;
   auto d = c.derivative();
   const Eigen::Matrix<double, 1, Dim> gradient = per_length * (rotation * jet.gradient).transpose();
-  d.point(c.at.normal, 1, gradient);
-  d.centre(c.at.normal, 0, -gradient);
-  d.turn(c.at.normal, 0, -gradient * lever(arm));
+  d.template point<1>(c.at.normal, 1, gradient);
+  d.template centre<1>(c.at.normal, 0, -gradient);
+  d.template turn<1>(c.at.normal, 0, -gradient * lever(arm));
 }
 
 /// 0 <= p_n _|_ psi >= 0, psi = n . (a_1 - a_2).
@@ -148,9 +150,9 @@ void distance_gap_row(const RowContext<Dim>& c) {
   c.f[c.at.normal] = n * c.state.separation;
   if (c.jacobian == nullptr) return;
   auto d = c.derivative();
-  d.point(c.at.normal, 0, n);
-  d.point(c.at.normal, 1, -n);
-  d.frame(c.at.normal, per_length * c.state.separation.transpose());
+  d.template point<1>(c.at.normal, 0, n);
+  d.template point<1>(c.at.normal, 1, -n);
+  d.template frame<1>(c.at.normal, per_length * c.state.separation.transpose());
 }
 
 /// w = E v_f / V: slip along t (and o) and spin about n, times the semi-axes.
@@ -178,15 +180,16 @@ void slip_derivative(const RowContext<Dim>& c, Eigen::Index row,
         on_v.col(i) * (state.slip_velocity.transpose() * state.frame.derivative[static_cast<std::size_t>(i)]);
   }
   if constexpr (Dim == 3) on_normal += on_v.col(2) * state.spin_velocity.transpose();
-  d.frame(row, on_normal);
+  d.template frame<R>(row, on_normal);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     const Rows on_arm = kSign[k] * on_slip *
                         spin_matrix(Angular<Dim>(state.body[k].nu.template tail<Dimension<Dim>::angular>()));
-    d.point(row, k, on_arm);
-    d.centre(row, k, -on_arm);
-    d.velocity(row, k, kSign[k] * on_slip);
-    d.spin(row, k, kSign[k] * on_slip * lever(state.side[k].arm));
-    if constexpr (Dim == 3) d.spin(row, k, kSign[k] * on_v.col(2) * state.frame.normal.transpose());
+    d.template point<R>(row, k, on_arm);
+    d.template centre<R>(row, k, -on_arm);
+    d.template velocity<R>(row, k, kSign[k] * on_slip);
+    d.template spin<R>(row, k, kSign[k] * on_slip * lever(state.side[k].arm));
+    if constexpr (Dim == 3)
+      d.template spin<R>(row, k, kSign[k] * on_v.col(2) * state.frame.normal.transpose());
   }
 }
 
@@ -242,14 +245,14 @@ void momentum_rows(const RowContext<Dim>& c) {
 
     Eigen::MatrixXd& j = *c.jacobian;
     auto d = c.derivative();
-    d.frame(row, linear * force_on_normal);
+    d.template frame<Dim>(row, linear * force_on_normal);
     Eigen::Matrix<double, kAngular, Dim> moment_on_normal = moment * force_on_normal;
     if constexpr (Dim == 3) moment_on_normal += friction[2] * Matrix<3>::Identity();
-    d.frame(row + Dim, angular * moment_on_normal);
+    d.template frame<kAngular>(row + Dim, angular * moment_on_normal);
     const Eigen::Matrix<double, kAngular, Dim> on_arm =
         -angular * lever(force).transpose();  // d(r x F) = dr x F
-    d.point(row + Dim, k, on_arm);
-    d.centre(row + Dim, k, -on_arm);
+    d.template point<kAngular>(row + Dim, k, on_arm);
+    d.template centre<kAngular>(row + Dim, k, -on_arm);
     j.template block<Dim, 1>(row, c.at.normal) += linear * unit * frame.normal;
     j.template block<kAngular, 1>(row + Dim, c.at.normal) += angular * unit * (moment * frame.normal);
     for (int i = 0; i < Dim - 1; ++i) {

@@ -67,6 +67,8 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
   active_.reserve(pairs.size());
   active_contacts_.reserve(pairs.size());
   contacts_.reserve(pairs.size());
+  joints_.resize(scene_.joints.size());
+  joint_memory_.setZero(problem_.joint_row_count());
 }
 
 template <int Dim>
@@ -132,9 +134,11 @@ SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
 template <int Dim>
 void ImplicitStepper<Dim>::start_from_memory() {
   z_.setZero(problem_.size());
+  z_.segment(problem_.layout().joints(), joint_memory_.size()) = joint_memory_;
   const bool all_known =
       std::all_of(active_.begin(), active_.end(), [this](std::size_t pair) { return memory_[pair].valid; });
-  if (all_known && !active_.empty()) {
+  const bool constrained = !active_.empty() || !joints_.empty();
+  if (all_known && constrained) {
     problem_.start_velocity(z_);
   } else {
     problem_.free_velocity(z_);
@@ -195,6 +199,8 @@ void ImplicitStepper<Dim>::accept() {
     memory.s = z_[at.slip];
     std::copy_n(z_.data() + at.multipliers_1, memory.multipliers.size(), memory.multipliers.begin());
   }
+  joint_memory_ = z_.segment(problem_.layout().joints(), joint_memory_.size());
+  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i] = problem_.joint_impulse(i, z_);
   std::swap(state_, end_);
 }
 

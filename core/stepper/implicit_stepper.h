@@ -28,11 +28,13 @@ class ImplicitStepper final : public Method<Dim> {
   ImplicitStepper(const Scene<Dim>& scene, const ImplicitOptions& options);
 
   [[nodiscard]] Capabilities capabilities() const override {
-    return {.contact_impulses = true, .torsional_friction = true, .anisotropic_friction = true};
+    return {
+        .contact_impulses = true, .torsional_friction = true, .anisotropic_friction = true, .joints = true};
   }
   [[nodiscard]] const Scene<Dim>& scene() const override { return scene_; }
   [[nodiscard]] std::span<const BodyState<Dim>> state() const override { return state_; }
   [[nodiscard]] std::span<const ContactImpulse<Dim>> contacts() const override { return contacts_; }
+  [[nodiscard]] std::span<const JointImpulse<Dim>> joints() const override { return joints_; }
   [[nodiscard]] StepReport step(double h) override;
   [[nodiscard]] Options effective_options() const override;
 
@@ -74,6 +76,8 @@ class ImplicitStepper final : public Method<Dim> {
   std::vector<ContactPair<Dim>> active_contacts_;
   Eigen::VectorXd z_;
   std::vector<ContactImpulse<Dim>> contacts_;
+  std::vector<JointImpulse<Dim>> joints_;
+  Eigen::VectorXd joint_memory_;  ///< scaled joint impulses of the last step
 };
 
 }  // namespace touchstone

@@ -3,9 +3,11 @@
 namespace touchstone {
 
 template <int Dim>
-void StepLayout<Dim>::assign(int moving_bodies, const std::vector<ContactPair<Dim>>& contacts) {
+void StepLayout<Dim>::assign(int moving_bodies, Eigen::Index joint_rows,
+                             const std::vector<ContactPair<Dim>>& contacts) {
   contacts_.resize(contacts.size());
-  Eigen::Index next = velocity(moving_bodies);
+  joints_ = velocity(moving_bodies);
+  Eigen::Index next = joints_ + joint_rows;
   const auto take = [&next](Eigen::Index count) {
     const Eigen::Index first = next;
     next += count;

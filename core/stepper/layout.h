@@ -30,22 +30,26 @@ struct ContactLayout {
   Eigen::Index multipliers_2 = 0;
 };
 
-/// z = [u | v] as in the paper: u = [nu; a_1, a_2, p_t, p_o, p_r per contact] free, v = [p_n, sigma per
-/// contact] >= 0, and after them the multipliers l >= 0 of bodies that are intersections (appendix).
+/// z = [u | v] as in the paper: u = [nu; joint impulses; a_1, a_2, p_t, p_o, p_r per contact] free, v = [p_n,
+/// sigma per contact] >= 0, and after them the multipliers l >= 0 of bodies that are intersections
+/// (appendix).
 template <int Dim>
 class StepLayout {
  public:
-  void assign(int moving_bodies, const std::vector<ContactPair<Dim>>& contacts);
+  void assign(int moving_bodies, Eigen::Index joint_rows, const std::vector<ContactPair<Dim>>& contacts);
 
   [[nodiscard]] Eigen::Index size() const { return size_; }
   /// Number of free unknowns: the length of u.
   [[nodiscard]] Eigen::Index free_size() const { return free_size_; }
   [[nodiscard]] const ContactLayout& contact(std::size_t i) const { return contacts_[i]; }
   [[nodiscard]] static Eigen::Index velocity(int moving) { return Dimension<Dim>::velocity * moving; }
+  /// Where the joints' impulses begin.
+  [[nodiscard]] Eigen::Index joints() const { return joints_; }
 
  private:
   Eigen::Index size_ = 0;
   Eigen::Index free_size_ = 0;
+  Eigen::Index joints_ = 0;
   std::vector<ContactLayout> contacts_;
 };
 

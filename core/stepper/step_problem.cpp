@@ -41,6 +41,12 @@ StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene) {
     place_.push_back(scene.bodies[i].fixed ? -1 : static_cast<int>(moving_.size()));
     if (!scene.bodies[i].fixed) moving_.push_back({static_cast<int>(i), scene.bodies[i].mass});
   }
+  for (const Joint<Dim>& joint : scene.joints) {
+    joints_.push_back(joint_rows(joint, scene.bodies[static_cast<std::size_t>(joint.body_a)].pose,
+                                 scene.bodies[static_cast<std::size_t>(joint.body_b)].pose));
+    joints_.back().mass = lighter_mass(joint.body_a, joint.body_b);
+    joint_row_count_ += static_cast<Eigen::Index>(joints_.back().rows.size());
+  }
 }
 
 template <int Dim>
@@ -59,7 +65,7 @@ void StepProblem<Dim>::prepare(std::span<const BodyState<Dim>> state, double h,
   if (states_.size() < contacts.size()) states_.resize(contacts.size());
   for (auto& moving : moving_) prepare_body(moving);
   for (std::size_t i = 0; i < contacts.size(); ++i) prepare_contact(i);
-  layout_.assign(moving_bodies(), contacts_);
+  layout_.assign(moving_bodies(), joint_row_count_, contacts_);
   assign_bounds();
 }
 
@@ -87,11 +93,7 @@ void StepProblem<Dim>::prepare_contact(std::size_t i) {
   prepared.origin = start_[static_cast<std::size_t>(pair.body_1)].pose.position;
   prepared.semi_axes = pair.law.semi_axes();
   prepared.active = (prepared.semi_axes.array() != 0).template cast<double>();
-  prepared.mass = kInfinity;
-  for (const int body : {pair.body_1, pair.body_2}) {
-    const Body<Dim>& b = scene_.bodies[static_cast<std::size_t>(body)];
-    if (!b.fixed) prepared.mass = std::min(prepared.mass, b.mass);
-  }
+  prepared.mass = lighter_mass(pair.body_1, pair.body_2);
   const double largest = prepared.semi_axes.template head<Dim - 1>().maxCoeff();
   prepared.rho = 1 / (3 * largest * largest);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -109,6 +111,16 @@ void StepProblem<Dim>::prepare_contact(std::size_t i) {
   }
   states_[i].side[0].reserve(pair.side_1);
   states_[i].side[1].reserve(pair.side_2);
+}
+
+template <int Dim>
+double StepProblem<Dim>::lighter_mass(int body_1, int body_2) const {
+  double mass = kInfinity;
+  for (const int index : {body_1, body_2}) {
+    const Body<Dim>& body = scene_.bodies[static_cast<std::size_t>(index)];
+    if (!body.fixed) mass = std::min(mass, body.mass);
+  }
+  return mass;
 }
 
 template <int Dim>
@@ -197,10 +209,31 @@ void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
                                 Eigen::MatrixXd* jacobian) const {
   if (jacobian != nullptr) jacobian->setZero();
   momentum_rows(z, f, jacobian);
+  Eigen::Index row = layout_.joints();
+  for (const auto& joint : joints_) {
+    add_joint(joint, joint_bodies(joint, z), row_options_.scale, row_options_.h, row, z, f, jacobian);
+    row += static_cast<Eigen::Index>(joint.rows.size());
+  }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     evaluate_state(i, z);
     contact_rows(contacts_[i], prepared_[i], layout_.contact(i), row_options_, states_[i], f, jacobian);
   }
+}
+
+/// Both bodies of a joint at the end of the step, relative to where body a started.
+template <int Dim>
+std::array<BodyAtEnd<Dim>, 2> StepProblem<Dim>::joint_bodies(const JointRows<Dim>& joint,
+                                                             const Eigen::VectorXd& z) const {
+  const Vector<Dim>& origin = start_[static_cast<std::size_t>(joint.body[0])].pose.position;
+  return {body_at_end(joint.body[0], origin, z), body_at_end(joint.body[1], origin, z)};
+}
+
+template <int Dim>
+JointImpulse<Dim> StepProblem<Dim>::joint_impulse(std::size_t i, const Eigen::VectorXd& z) const {
+  Eigen::Index first = layout_.joints();
+  for (std::size_t j = 0; j < i; ++j) first += static_cast<Eigen::Index>(joints_[j].rows.size());
+  const auto wrenches = joint_wrenches(joints_[i], joint_bodies(joints_[i], z), row_options_.scale, first, z);
+  return {static_cast<int>(i), wrenches[0], wrenches[1]};
 }
 
 template <int Dim>
@@ -257,6 +290,12 @@ std::string StepProblem<Dim>::row_name(Eigen::Index row) const {
   if (row < layout_.velocity(moving_bodies())) {
     const auto place = static_cast<std::size_t>(row / Dimension<Dim>::velocity);
     return fmt::format("momentum of {}", body_name(moving_[place].body));
+  }
+  Eigen::Index joint_end = layout_.joints();
+  for (const auto& joint : joints_) {
+    joint_end += static_cast<Eigen::Index>(joint.rows.size());
+    if (row < joint_end)
+      return fmt::format("joint of {} and {}", body_name(joint.body[0]), body_name(joint.body[1]));
   }
   const auto named = [&](std::size_t i, const char* what) {
     return fmt::format("{} of {} on {}", what, body_name(contacts_[i].body_1),

@@ -6,6 +6,7 @@
 #include "core/complementarity/problem.h"
 #include "core/method.h"
 #include "core/stepper/contact_rows.h"
+#include "core/stepper/joint_rows.h"
 
 namespace touchstone {
 
@@ -43,6 +44,11 @@ class StepProblem final : public MixedComplementarityProblem {
 
   /// nu' of a free step: no contact impulse. Entries of z below layout().velocity(moving_bodies()).
   void free_velocity(Eigen::VectorXd& z) const;
+  /// Number of scalar joint constraints; their impulses are the entries of z from layout().joints() on.
+  [[nodiscard]] Eigen::Index joint_row_count() const { return joint_row_count_; }
+  /// What joint i of the scene does at a solution z.
+  [[nodiscard]] JointImpulse<Dim> joint_impulse(std::size_t i, const Eigen::VectorXd& z) const;
+
   /// nu' = nu, the velocities at the start of the step.
   void start_velocity(Eigen::VectorXd& z) const;
   /// Writes the unknowns of contact i for given closest points, world frame; impulses and multipliers are
@@ -76,6 +82,10 @@ class StepProblem final : public MixedComplementarityProblem {
   void assign_bounds();
   [[nodiscard]] BodyAtEnd<Dim> body_at_end(int body, const Vector<Dim>& origin,
                                            const Eigen::VectorXd& z) const;
+  [[nodiscard]] std::array<BodyAtEnd<Dim>, 2> joint_bodies(const JointRows<Dim>& joint,
+                                                           const Eigen::VectorXd& z) const;
+  /// Mass of the lighter of two bodies that moves: the unit of impulses between them, over V.
+  [[nodiscard]] double lighter_mass(int body_1, int body_2) const;
   void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
   void momentum_rows(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const;
 
@@ -84,6 +94,8 @@ class StepProblem final : public MixedComplementarityProblem {
   std::vector<BodyState<Dim>> start_;
   std::vector<int> place_;  ///< of a body among those that move; -1 for a fixed one
   std::vector<Moving> moving_;
+  std::vector<JointRows<Dim>> joints_;
+  Eigen::Index joint_row_count_ = 0;
   std::vector<ContactPair<Dim>> contacts_;
   std::vector<PreparedContact<Dim>> prepared_;
   StepLayout<Dim> layout_;

@@ -72,12 +72,13 @@ Scene<Dim> general_scene() {
 
 template <int Dim>
 struct Fixture {
-  Scene<Dim> scene = general_scene<Dim>();
+  Scene<Dim> scene;
   std::vector<std::shared_ptr<const ConvexSurface<Dim>>> surfaces;
   std::vector<ContactPair<Dim>> contacts;
   StepProblem<Dim> problem;
 
-  explicit Fixture(double h = 0.05) : problem(scene) {
+  explicit Fixture(Scene<Dim> given = general_scene<Dim>(), double h = 0.05)
+      : scene(std::move(given)), problem(scene) {
     for (const auto& body : scene.bodies) surfaces.push_back(make_surface(body.shape));
     add(0, 2);
     add(1, 2);
@@ -137,6 +138,51 @@ TYPED_TEST(StepProblemTest, JacobianMatchesCentralDifferences) {
         EXPECT_LT(jacobian_error(fixture.problem, z), 2e-7);
       }
     }
+  }
+}
+
+TYPED_TEST(StepProblemTest, JacobianWithIntersectionsMatchesCentralDifferences) {
+  constexpr int dim = TypeParam::dim;
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Scene<dim> scene = general_scene<dim>();
+  // A lens on the ground, a box on an ellipsoid, and two intersections on each other.
+  const Shape<dim> above = {Sphere<dim>{1.5}, {-0.8 * Vector<dim>::UnitX(), {}}};
+  const Shape<dim> below = {Ellipsoid<dim>{Vector<dim>::Constant(1.4)}, {0.7 * Vector<dim>::UnitX(), {}}};
+  scene.bodies[0].shape = {Intersection<dim>{{above, below}}};
+  for (const int other : {1, 2}) {
+    if (other == 1) scene.bodies[1].shape = {Box<dim>{Vector<dim>::Constant(0.6)}};
+    Fixture<dim> fixture(scene);
+    EXPECT_GT(fixture.problem.size(), fixture.problem.layout().free_size() + 2 * 3);
+    for (int sample = 0; sample < 20; ++sample) {
+      Eigen::VectorXd z(fixture.problem.size());
+      for (auto& entry : z) entry = uniform(random);
+      EXPECT_LT(jacobian_error(fixture.problem, z), 2e-7);
+    }
+  }
+}
+
+TYPED_TEST(StepProblemTest, JacobianWithJointsMatchesCentralDifferences) {
+  constexpr int dim = TypeParam::dim;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const JointType type : {JointType::ball, JointType::hinge, JointType::slider, JointType::fixed}) {
+    Scene<dim> scene = general_scene<dim>();
+    const Vector<dim> anchor = Vector<dim>::Constant(0.7);
+    const Vector<dim> axis = (Vector<dim>::Constant(0.3) + Vector<dim>::UnitX()).normalized();
+    scene.joints = {{type, 0, 1, anchor, axis}, {type, 1, 2, -anchor, axis}};
+    StepProblem<dim> problem(scene);
+    problem.prepare(initial_state(scene), 0.05, {});
+    for (int sample = 0; sample < 10; ++sample) {
+      Eigen::VectorXd z(problem.size());
+      for (auto& entry : z) entry = uniform(random);
+      EXPECT_LT(jacobian_error(problem, z), 2e-7);
+    }
+    // The joints hold in the pose that they were made in.
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(problem.size());
+    Eigen::VectorXd f(problem.size());
+    problem.evaluate(z, f, nullptr);
+    EXPECT_LT(f.tail(problem.joint_row_count()).cwiseAbs().maxCoeff(), 1e-14);
   }
 }
 
