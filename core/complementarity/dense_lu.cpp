@@ -1,0 +1,199 @@
+#include "core/complementarity/dense_lu.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+namespace touchstone {
+
+using Eigen::Index;
+
+Eigen::Map<Eigen::MatrixXd> DenseLu::matrix(Index n) {
+  const auto size = static_cast<std::size_t>(n);
+  if (storage_.size() < size * size) storage_.resize(size * size);
+  if (inverse_pivot_.size() < size) {
+    inverse_pivot_.resize(size);
+    column_scale_.resize(size);
+    exchanges_.resize(size);
+  }
+  n_ = n;
+  return {storage_.data(), n, n};
+}
+
+bool DenseLu::factor(double tolerance) {
+  return n_ < blocked_size ? factor_small(tolerance) : factor_blocked(tolerance);
+}
+
+bool DenseLu::factor_small(double tolerance) {
+  double* const a = storage_.data();
+  for (Index j = 0; j < n_; ++j) {
+    double largest = 0.0;
+    for (Index i = 0; i < n_; ++i) largest = std::max(largest, std::abs(a[i + j * n_]));
+    column_scale_[static_cast<std::size_t>(j)] = largest;
+  }
+  for (Index k = 0; k < n_; ++k) {
+    const double* const column = a + k * n_;
+    Index pivot_row = k;
+    double pivot = std::abs(column[k]);
+    for (Index i = k + 1; i < n_; ++i) {
+      const double candidate = std::abs(column[i]);
+      if (candidate > pivot) {
+        pivot = candidate;
+        pivot_row = i;
+      }
+    }
+    // Written so that a NaN fails it.
+    if (!(pivot > tolerance * column_scale_[static_cast<std::size_t>(k)]) || !std::isfinite(pivot))
+      return false;
+    exchanges_[static_cast<std::size_t>(k)] = pivot_row;
+    if (pivot_row != k) swap_rows(k, pivot_row);
+    eliminate(k);
+  }
+  return true;
+}
+
+bool DenseLu::factor_blocked(double tolerance) {
+  Eigen::Map<Eigen::MatrixXd> a(storage_.data(), n_, n_);
+  for (Index j = 0; j < n_; ++j) column_scale_[static_cast<std::size_t>(j)] = a.col(j).cwiseAbs().maxCoeff();
+  blocked_.compute(a);
+  a = blocked_.matrixLU();
+  for (Index k = 0; k < n_; ++k) {
+    const double pivot = std::abs(a(k, k));
+    if (!(pivot > tolerance * column_scale_[static_cast<std::size_t>(k)]) || !std::isfinite(pivot))
+      return false;
+    inverse_pivot_[static_cast<std::size_t>(k)] = 1.0 / a(k, k);
+  }
+  return true;
+}
+
+void DenseLu::swap_rows(Index r, Index s) {
+  double* const a = storage_.data();
+  for (Index j = 0; j < n_; ++j) std::swap(a[r + j * n_], a[s + j * n_]);
+}
+
+void DenseLu::swap_columns(Index r, Index s) {
+  double* const a = storage_.data();
+  std::swap_ranges(a + r * n_, a + (r + 1) * n_, a + s * n_);
+}
+
+// One step of right-looking elimination: multipliers of column k, then the block right of and below the
+// pivot, two columns at a time so that the multipliers are read half as often.
+void DenseLu::eliminate(Index k) {
+  double* const a = storage_.data();
+  double* const multipliers = a + k * n_;
+  const double inverse = 1.0 / multipliers[k];
+  inverse_pivot_[static_cast<std::size_t>(k)] = inverse;
+  for (Index i = k + 1; i < n_; ++i) multipliers[i] *= inverse;
+  const double* __restrict const column = multipliers;
+  Index j = k + 1;
+  for (; j + 1 < n_; j += 2) {
+    double* __restrict const first = a + j * n_;
+    double* __restrict const second = first + n_;
+    const double first_factor = first[k];
+    const double second_factor = second[k];
+    if (first_factor == 0.0 && second_factor == 0.0) continue;  // contacts leave many zeros
+    for (Index i = k + 1; i < n_; ++i) {
+      first[i] -= first_factor * column[i];
+      second[i] -= second_factor * column[i];
+    }
+  }
+  if (j == n_) return;
+  double* __restrict const last = a + j * n_;
+  const double factor = last[k];
+  for (Index i = k + 1; i < n_; ++i) last[i] -= factor * column[i];
+}
+
+void DenseLu::solve(double* x) {
+  permute(x);
+  const double* const a = storage_.data();
+  for (Index k = 0; k < n_; ++k) {
+    const double* const column = a + k * n_;
+    for (Index i = k + 1; i < n_; ++i) x[i] -= column[i] * x[k];
+  }
+  back_substitute(n_, x);
+}
+
+void DenseLu::permute(double* x) {
+  if (n_ < blocked_size) {
+    for (Index k = 0; k < n_; ++k) std::swap(x[k], x[exchanges_[static_cast<std::size_t>(k)]]);
+    return;
+  }
+  permuted_.assign(x, x + n_);  // Eigen's own permutation in place allocates
+  for (Index i = 0; i < n_; ++i)
+    x[blocked_.permutationP().indices()[i]] = permuted_[static_cast<std::size_t>(i)];
+}
+
+Index DenseLu::factor_rank_revealing(double tolerance) {
+  const auto size = static_cast<std::size_t>(n_);
+  row_order_.resize(size);
+  column_order_.resize(size);
+  std::iota(row_order_.begin(), row_order_.end(), Index{0});
+  std::iota(column_order_.begin(), column_order_.end(), Index{0});
+  const Eigen::Map<Eigen::MatrixXd> a(storage_.data(), n_, n_);
+  double largest = 0.0;
+  for (rank_ = 0; rank_ < n_; ++rank_) {
+    const Index left = n_ - rank_;
+    Index row = 0;
+    Index column = 0;
+    const double pivot = a.bottomRightCorner(left, left).cwiseAbs().maxCoeff(&row, &column);
+    largest = std::max(largest, pivot);
+    if (!(pivot > tolerance * largest) || !std::isfinite(pivot)) break;
+    swap_rows(rank_, rank_ + row);
+    swap_columns(rank_, rank_ + column);
+    std::swap(row_order_[static_cast<std::size_t>(rank_)], row_order_[static_cast<std::size_t>(rank_ + row)]);
+    std::swap(column_order_[static_cast<std::size_t>(rank_)],
+              column_order_[static_cast<std::size_t>(rank_ + column)]);
+    eliminate(rank_);
+  }
+  return rank_;
+}
+
+void DenseLu::solve_least_norm(const double* b, double* x) {
+  permuted_.resize(static_cast<std::size_t>(n_));
+  double* const y = permuted_.data();
+  const double* const a = storage_.data();
+  for (Index i = 0; i < n_; ++i) y[i] = i < rank_ ? b[row_order_[static_cast<std::size_t>(i)]] : 0.0;
+  for (Index k = 0; k < rank_; ++k) {
+    for (Index i = k + 1; i < rank_; ++i) y[i] -= a[i + k * n_] * y[k];
+  }
+  back_substitute(rank_, y);
+  remove_null_components(y);
+  for (Index j = 0; j < n_; ++j) x[column_order_[static_cast<std::size_t>(j)]] = y[j];
+}
+
+// x <- U^-1 x for the leading block of the given order.
+void DenseLu::back_substitute(Index order, double* x) const {
+  for (Index k = order - 1; k >= 0; --k) {
+    const double* const column = storage_.data() + k * n_;
+    x[k] *= inverse_pivot_[static_cast<std::size_t>(k)];
+    for (Index i = 0; i < k; ++i) x[i] -= column[i] * x[k];
+  }
+}
+
+// Null vector of the independent rows that has 1 in the k-th dependent column: (-U11^-1 U12 e_k, e_k).
+void DenseLu::null_vector(Index k, double* x) const {
+  const double* const column = storage_.data() + (rank_ + k) * n_;
+  for (Index i = 0; i < n_; ++i) x[i] = i < rank_ ? -column[i] : 0.0;
+  back_substitute(rank_, x);
+  x[rank_ + k] = 1.0;
+}
+
+// The basic solution has zeros in the dependent columns; its shortest sibling is orthogonal to the null
+// space, whose basis is made orthonormal by modified Gram-Schmidt. The deficiency is a handful at most.
+void DenseLu::remove_null_components(double* x) {
+  const Index deficiency = n_ - rank_;
+  const auto needed = static_cast<std::size_t>(n_ * deficiency);
+  if (null_space_.size() < needed) null_space_.resize(needed);
+  Eigen::Map<Eigen::MatrixXd> basis(null_space_.data(), n_, deficiency);
+  Eigen::Map<Eigen::VectorXd> solution(x, n_);
+  for (Index k = 0; k < deficiency; ++k) {
+    null_vector(k, null_space_.data() + k * n_);
+    auto vector = basis.col(k);
+    for (Index j = 0; j < k; ++j) vector -= basis.col(j).dot(vector) * basis.col(j);
+    vector.normalize();
+    solution -= vector.dot(solution) * vector;
+  }
+}
+
+}  // namespace touchstone
