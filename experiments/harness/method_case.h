@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "baselines/options.h"
+#include "baselines/registry.h"
+#include "core/model/errors.h"
+#include "experiments/harness/case.h"
+#include "experiments/harness/command_line.h"
+#include "experiments/harness/run_case.h"
+
+/// Cases of methods from the registry.
+namespace touchstone::harness {
+
+/// A method to be run on a scene, and what is to be written about it.
+template <int Dim>
+struct MethodCase {
+  std::string scenario;
+  std::shared_ptr<const Scene<Dim>> scene;
+  MethodSpec method;
+  Row sweep;  ///< cells of the experiment's sweep columns
+  RunOptions run;
+  double cost_of_step = 1.0;  ///< beside other methods', for the order of work
+  /// The rows of each table of the experiment. Also called for a run that failed, with what it has.
+  std::function<std::vector<std::vector<Row>>(const CaseRun<Dim>&)> tabulate;
+};
+
+/// The options in force of `method` on `scene`; those that were given if it cannot represent the scene.
+/// @throws InputError on an unknown method, or an unknown or bad option
+template <int Dim>
+Options options_in_force(const Scene<Dim>& scene, const MethodSpec& method) {
+  const MethodEntry<Dim>& entry = find_method<Dim>(method.key);
+  try {
+    return entry.make(scene, method.options)->effective_options();
+  } catch (const Unsupported&) {
+    return method.options;  // its row will say so
+  }
+}
+
+/// The case, with the method, its options and the horizon already checked, so that what is wrong with them is
+/// found before anything runs.
+/// @throws InputError on an unknown method, an unknown or bad option, a horizon that is no multiple of the
+/// step
+template <int Dim>
+Case make_case(MethodCase<Dim> spec) {
+  const MethodEntry<Dim>& entry = find_method<Dim>(spec.method.key);
+  Case one;
+  one.id = {spec.scenario, spec.method.key, format_options(options_in_force(*spec.scene, spec.method)),
+            spec.sweep,    spec.run.h,      spec.run.until};
+  one.cost = static_cast<double>(step_count(spec.run.until, spec.run.h)) * spec.cost_of_step;
+  if (entry.version != nullptr) one.engine_version = entry.version();
+  one.run = [spec = std::move(spec), make = entry.make] {
+    const auto method = make(*spec.scene, spec.method.options);
+    const CaseRun<Dim> run = run_case(*method, spec.run);
+    return CaseResult{run.status, run.reason, spec.tabulate(run)};
+  };
+  return one;
+}
+
+}  // namespace touchstone::harness

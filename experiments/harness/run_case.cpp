@@ -1,0 +1,143 @@
+#include "experiments/harness/run_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/model/errors.h"
+#include "experiments/harness/interrupt.h"
+
+namespace touchstone::harness {
+
+namespace {
+
+/// Number of steps to `t`, if it is a multiple of `h`. Both are decimals rounded to doubles, hence the
+/// tolerance.
+std::optional<long> multiple_of(double t, double h) {
+  constexpr double kTolerance = 1e-9;
+  const double count = t / h;
+  const double nearest = std::round(count);
+  if (!(std::abs(count - nearest) <= kTolerance * std::max(1.0, nearest))) return std::nullopt;
+  return static_cast<long>(nearest);
+}
+
+template <int Dim>
+bool is_finite(std::span<const BodyState<Dim>> state) {
+  return std::all_of(state.begin(), state.end(),
+                     [](const auto& body) { return body.pose.is_finite() && body.velocity.allFinite(); });
+}
+
+void raise(double& largest, double value) {
+  // Not std::max, which would drop a NaN.
+  if (!(value <= largest)) largest = value;
+}
+
+/// Runs a case and keeps its account.
+template <int Dim>
+class Runner {
+ public:
+  Runner(Method<Dim>& method, const RunOptions& options)
+      : method_(method),
+        options_(options),
+        judge_(method.scene()),
+        steps_(step_count(options.until, options.h)) {
+    every_ = std::max(1L, (steps_ + options.samples - 1) / options.samples);
+    run_.samples.reserve(static_cast<std::size_t>(steps_ / every_ + 2));
+    for (const double t : options.report) report_steps_.push_back(multiple_of(t, options.h));
+    run_.reported.resize(options.report.size());
+  }
+
+  CaseRun<Dim> run() {
+    observe(0);
+    for (long k = 1; k <= steps_; ++k) {
+      throw_if_interrupted();
+      remember();
+      const StepReport report = method_.step(options_.h);
+      run_.iterations += report.iterations;
+      if (!accept(report, k)) break;
+      judge_step();
+      observe(k);
+    }
+    run_.end.assign(method_.state().begin(), method_.state().end());
+    return std::move(run_);
+  }
+
+ private:
+  /// k h, formed so that a decimal time comes out as that decimal: runs with different steps then share their
+  /// times.
+  [[nodiscard]] double time_of(long k) const {
+    return options_.until * static_cast<double>(k) / static_cast<double>(steps_);
+  }
+
+  void remember() { before_.assign(method_.state().begin(), method_.state().end()); }
+
+  bool accept(const StepReport& report, long k) {
+    if (report.status != StepStatus::solved) return fail(k, to_string(report.status), report.reason);
+    if (!is_finite<Dim>(method_.state()))
+      return fail(k, to_string(StepStatus::non_finite), "state after the step");
+    run_.steps = k;
+    return true;
+  }
+
+  bool fail(long k, std::string_view status, std::string_view why) {
+    run_.status = CaseStatus::failed;
+    run_.reason =
+        fmt::format("step {} from t = {} s: {}{}{}", k, time_of(k - 1), status, why.empty() ? "" : ": ", why);
+    run_.failed_steps = 1;
+    return false;
+  }
+
+  void judge_step() {
+    const StepResidual r =
+        judge_.step_residual(before_, method_.state(), method_.contacts(), options_.h, method_.joints());
+    raise(run_.residual.dynamics, r.dynamics);
+    raise(run_.residual.kinematics, r.kinematics);
+    raise(run_.residual.contact, r.contact);
+    raise(run_.residual.friction, r.friction);
+    raise(run_.residual.joints, r.joints);
+  }
+
+  /// Energy and penetration after step k, and what is to be kept of them.
+  void observe(long k) {
+    const Energy now = judge_.energy(method_.state());
+    if (k == 0) run_.initial = now;
+    run_.final = now;
+    raise(run_.largest_drift_J, std::abs(now.total() - run_.initial.total()));
+    raise(run_.largest_penetration, judge_.largest_penetration(method_.state()));
+    if (k % every_ == 0 || k == steps_) run_.samples.push_back({time_of(k), now});
+    for (std::size_t i = 0; i < report_steps_.size(); ++i) {
+      if (report_steps_[i] == k) run_.reported[i] = now;
+    }
+  }
+
+  Method<Dim>& method_;
+  const RunOptions& options_;
+  Judge<Dim> judge_;
+  long steps_;
+  long every_ = 1;
+  std::vector<std::optional<long>> report_steps_;
+  std::vector<BodyState<Dim>> before_;
+  CaseRun<Dim> run_;
+};
+
+}  // namespace
+
+long step_count(double until, double h) {
+  if (!(h > 0) || !std::isfinite(h)) throw InputError("step size", h, "a finite number > 0 [s]");
+  const std::optional<long> count = multiple_of(until, h);
+  if (!count || *count < 1) {
+    throw InputError("--until", until, fmt::format("a multiple of the step size {} s, at least one step", h));
+  }
+  return *count;
+}
+
+template <int Dim>
+CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options) {
+  return Runner<Dim>(method, options).run();
+}
+
+template CaseRun<2> run_case(Method<2>&, const RunOptions&);
+template CaseRun<3> run_case(Method<3>&, const RunOptions&);
+
+}  // namespace touchstone::harness

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/harness/case.h"
+#include "experiments/harness/journal.h"
+
+namespace touchstone::harness {
+
+/// Runs a case and turns what it throws into a status and a reason: Unsupported -> unsupported, any other
+/// exception
+/// -> failed. @throws Interrupted
+FinishedCase run_one(const Case& one);
+
+/// Runs the cases that `done` does not hold on `jobs` threads, costly ones first, and journals each as it
+/// finishes.
+/// @param name  of the sweep, for the progress line
+/// @returns the cases in the order of `cases`, whatever the number of threads; none where it was interrupted
+/// @throws IoError if the journal cannot be written
+std::vector<std::optional<FinishedCase>> run_sweep(std::span<const Case> cases, const FinishedCases& done,
+                                                   int jobs, const std::string& name, Journal& journal);
+
+}  // namespace touchstone::harness
