@@ -1,0 +1,44 @@
+# shellcheck shell=bash
+# What tools/test and tools/reproduce share; they source this file.
+
+ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+readonly ROOT
+
+# Programs that run an experiment, build/PRESET/experiments/NAME each; adding an experiment adds its name here.
+# shellcheck disable=SC2034  # used by the scripts that source this file
+readonly EXPERIMENTS=(disc_rolling)
+
+# fail CODE MESSAGE...: a message for a person on stderr, then exit CODE.
+fail() {
+  local code=$1
+  shift
+  printf '%s: %s\n' "tools/$(basename "$0")" "$*" >&2
+  exit "$code"
+}
+
+# heading TEXT: a line that is easily found in a long log.
+heading() {
+  printf '\n=== %s\n' "$*"
+}
+
+# positive_integer FIELD VALUE: prints VALUE, or fails with what is allowed.
+positive_integer() {
+  [[ $2 =~ ^[1-9][0-9]{0,5}$ ]] || fail 2 "$1: got '$2', allowed: a positive integer"
+  echo "$2"
+}
+
+# configure_and_build PRESET JOBS [TARGET...]: everything if no target is named.
+configure_and_build() {
+  local preset=$1 jobs=$2
+  shift 2
+  cd "$ROOT" || return
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
+}
+
+# program NAME: the path of a built program of the release preset, NAME relative to the build tree.
+program() {
+  local path=$ROOT/build/release/$1
+  [[ -x $path ]] || fail 2 "$path is not built; run: tools/test --only release"
+  echo "$path"
+}
