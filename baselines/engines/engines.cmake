@@ -1,0 +1,87 @@
+# The engines: one .cpp each, added if its library is there. Box2D, Bullet and ODE are required; the others are found
+# if installed. An engine's absence is told at configuration and leaves its methods out of the table.
+set(engines_dir ${CMAKE_CURRENT_LIST_DIR})
+find_package(PkgConfig REQUIRED)
+
+target_sources(touchstone_baselines PRIVATE
+  ${engines_dir}/../isolation.cpp
+  ${engines_dir}/engine_method.cpp
+  ${engines_dir}/engines.cpp
+  ${engines_dir}/extruded.cpp
+  ${engines_dir}/laws.cpp
+  ${engines_dir}/principal_axes.cpp
+  ${engines_dir}/read_back.cpp
+  ${engines_dir}/shapes.cpp
+  ${engines_dir}/silence.cpp
+)
+
+# touchstone_engine(<name> <source> <target>...): the adapter, its library, and TOUCHSTONE_HAS_<NAME> for the table.
+function(touchstone_engine name source)
+  string(TOUPPER ${name} upper)
+  target_sources(touchstone_baselines PRIVATE ${engines_dir}/${source})
+  target_link_libraries(touchstone_baselines PRIVATE ${ARGN})
+  target_compile_definitions(touchstone_baselines PRIVATE TOUCHSTONE_HAS_${upper}=1)
+  message(STATUS "Engine ${name}: yes")
+endfunction()
+
+find_package(box2d CONFIG REQUIRED)
+touchstone_engine(box2d box2d.cpp box2d::box2d)
+
+# The build in double precision. The other one has the same symbol names: never both in one process.
+pkg_check_modules(TOUCHSTONE_BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+touchstone_engine(bullet bullet.cpp PkgConfig::TOUCHSTONE_BULLET)
+
+pkg_check_modules(TOUCHSTONE_ODE REQUIRED IMPORTED_TARGET ode)
+touchstone_engine(ode ode.cpp PkgConfig::TOUCHSTONE_ODE)
+set_source_files_properties(${engines_dir}/ode.cpp TARGET_DIRECTORY touchstone_baselines
+  PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_ODE_VERSION="${TOUCHSTONE_ODE_VERSION}")
+
+find_package(mujoco CONFIG QUIET)
+if(mujoco_FOUND)
+  # Debian's file names an include folder that is not there; the headers are in the compiler's own.
+  set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
+  touchstone_engine(mujoco mujoco.cpp mujoco::mujoco)
+  target_sources(touchstone_baselines PRIVATE ${engines_dir}/mujoco_model.cpp)
+else()
+  message(STATUS "Engine mujoco: not installed")
+endif()
+
+find_path(CHIPMUNK_INCLUDE_DIR chipmunk/chipmunk.h)
+find_library(CHIPMUNK_LIBRARY chipmunk)
+if(CHIPMUNK_INCLUDE_DIR AND CHIPMUNK_LIBRARY)
+  add_library(chipmunk UNKNOWN IMPORTED)
+  set_target_properties(chipmunk PROPERTIES IMPORTED_LOCATION ${CHIPMUNK_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${CHIPMUNK_INCLUDE_DIR})
+  touchstone_engine(chipmunk chipmunk.cpp chipmunk)
+else()
+  message(STATUS "Engine chipmunk: not installed")
+endif()
+
+# DART's file wants its parts' development packages too; without one of them it counts as not installed.
+find_package(DART 6 CONFIG QUIET COMPONENTS collision-ode)
+if(DART_FOUND AND TARGET dart AND TARGET dart-collision-ode)
+  touchstone_engine(dart dart.cpp dart dart-collision-ode)
+  target_sources(touchstone_baselines PRIVATE ${engines_dir}/dart_materials.cpp)
+else()
+  message(STATUS "Engine dart: not installed")
+endif()
+
+# Siconos's own file sets the C++ standard of its includer and wants the whole package, so it is not used.
+find_path(SICONOS_INCLUDE_DIR siconos/numerics/FrictionContactProblem.h)
+find_path(SUITESPARSE_INCLUDE_DIR cs.h PATH_SUFFIXES suitesparse)
+find_library(SICONOS_NUMERICS_LIBRARY siconos_numerics)
+if(SICONOS_INCLUDE_DIR AND SICONOS_NUMERICS_LIBRARY AND SUITESPARSE_INCLUDE_DIR)
+  add_library(siconos_numerics UNKNOWN IMPORTED)
+  set_target_properties(siconos_numerics PROPERTIES IMPORTED_LOCATION ${SICONOS_NUMERICS_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES
+    "${SICONOS_INCLUDE_DIR}/siconos;${SICONOS_INCLUDE_DIR}/siconos/numerics;${SUITESPARSE_INCLUDE_DIR}")
+  touchstone_engine(siconos siconos.cpp siconos_numerics)
+  # The library has no function that tells its version; the folder of its CMake files does.
+  file(GLOB siconos_cmake ${SICONOS_INCLUDE_DIR}/../lib/cmake/siconos-*)
+  string(REGEX REPLACE ".*/siconos-" "" siconos_version "${siconos_cmake}")
+  set_source_files_properties(${engines_dir}/siconos.cpp TARGET_DIRECTORY touchstone_baselines
+    PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_SICONOS_VERSION="${siconos_version}")
+  target_sources(touchstone_baselines PRIVATE ${engines_dir}/simple_contacts.cpp)
+else()
+  message(STATUS "Engine siconos: not installed")
+endif()

@@ -1,0 +1,58 @@
+#include "tests/conformance/traits.h"
+
+#include <array>
+
+namespace touchstone::conformance {
+
+namespace {
+
+struct Row {
+  std::string_view prefix;
+  Traits traits;
+};
+
+constexpr auto kRows = std::to_array<Row>({
+    // Single precision; depth within the band that Box2D leaves alone.
+    {"box2d",
+     {.rounding = 2e-6,
+      .contact_speed = 2e-4,
+      .slip_speed = 4e-4,
+      .contact_depth = 1e-5,
+      .flat_speed = 1e-3,
+      .flat_depth = 1e-4,
+      .settling_speed = 1e-3,
+      .impulse = 1e-4}},
+    // Rolls on its skin, which makes the radius 2.5e-6 longer.
+    {"chipmunk", {.free_flight = FreeFlight::position_first, .contact_speed = 1e-5, .settling_speed = 1e-4}},
+    {"bullet", {.flat_speed = 2e-4, .flat_depth = 1e-3, .settling_speed = 0.1}},
+    // Soft contacts: a resting body sinks by up to a millimetre, and a slipping one hops, because MuJoCo's
+    // convex
+    // friction asks for a normal velocity of mu times the slip.
+    {"mujoco",
+     {.contact_speed = 1e-2,
+      .slip_speed = 0.15,
+      .contact_depth = 1e-3,
+      .flat_speed = 1e-2,
+      .flat_depth = 1e-3,
+      .settling_speed = 1e-2}},
+    // Its collider of convex solids finds one point a step, so a prism on a prism rocks.
+    {"dart",
+     {.contact_speed = 1e-5,
+      .slip_speed = 1e-5,
+      .flat_speed = 1e-3,
+      .flat_depth = 1e-3,
+      .settling_speed = 5e-3}},
+    {"siconos", {.free_flight = FreeFlight::parabola}},
+    {"ode", {.flat_speed = 5e-2, .flat_depth = 1e-3, .settling_speed = 5e-2}},
+});
+
+}  // namespace
+
+Traits traits_of(std::string_view key) {
+  for (const auto& row : kRows) {
+    if (key.starts_with(row.prefix)) return row.traits;
+  }
+  return {};
+}
+
+}  // namespace touchstone::conformance
