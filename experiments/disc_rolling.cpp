@@ -244,7 +244,7 @@ class CaseList {
   /// `h_s` of a truth is that of the cases that it stands beside, whether it depends on it or not.
   void add_truth(const MethodSpec& method) {
     if (!method.options.empty())
-      throw InputError("--methods", format_method(method), "no options: it is a truth");
+      throw InputError("--methods", fmt::format("'{}'", format_method(method)), "no options: it is a truth");
     for (const Point& point : points_) {
       Case one;
       one.id = {kScenario, method.key, "", {point.sweep, number_cell(long{point.edges}), ""},

@@ -4,6 +4,9 @@
 ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 readonly ROOT
 
+# Compiled files are the same wherever the clone stands, so that a second clone does not compile everything again.
+export CCACHE_BASEDIR="$ROOT" CCACHE_NOHASHDIR=1
+
 # Programs that run an experiment, build/PRESET/experiments/NAME each; adding an experiment adds its name here.
 # shellcheck disable=SC2034  # used by the scripts that source this file
 readonly EXPERIMENTS=(disc_rolling)

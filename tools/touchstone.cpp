@@ -1,8 +1,10 @@
 // Runs scene files under any method, and tells which methods and scenarios there are.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "baselines/options.h"
@@ -106,6 +108,17 @@ void declare_run(CLI::App& run, RunWords& words) {
       ->take_all();
 }
 
+/// CLI11 would say no more than that a subcommand is required.
+void require_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool known = first.starts_with("-") || std::find(names.begin(), names.end(), first) != names.end();
+  if (known) return;
+  throw InputError("command", first.empty() ? "nothing" : "'" + first + "'",
+                   fmt::format("{} (see touchstone --help)", fmt::join(names, ", ")));
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app(kAbout, "touchstone");
   app.footer(kHelp);
@@ -117,6 +130,7 @@ int run_command(int argc, char** argv) {
   validate.add_option("SCENE", words.scene, "scene file")->required()->type_name("");
   const CLI::App& methods = *app.add_subcommand("methods", "List the methods of this build.");
   const CLI::App& scenarios = *app.add_subcommand("scenarios", "List the scenarios that have a truth.");
+  require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

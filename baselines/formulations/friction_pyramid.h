@@ -9,7 +9,7 @@
 namespace touchstone {
 
 /// The friction ellipsoid of Eq. 5 as the convex hull of finitely many points  mu p_n E d_j  (Stewart &
-/// Trinkle 1996, section 2: "friction pyramid"). Between two directions the bound is lower or higher than the
+/// Trinkle 1996). Between two directions the bound is lower or higher than the
 /// ellipsoid's.
 template <int Dim>
 struct FrictionPyramid {

@@ -41,7 +41,7 @@ struct LcpStepData {
   double h = 0.0;                    ///< [s]
 };
 
-/// The linear complementarity problem of one step (Stewart & Trinkle 1996, section 3; the paper's Eq. 4 with
+/// The linear complementarity problem of one step (Stewart & Trinkle 1996; the paper's Eq. 4 with
 /// W at the start of the step, psi to first order and the friction ellipsoid as a pyramid). Per candidate, of
 /// any number:
 ///   0 <= p_n    _|_  psi / h + W_n^T nu'    >= 0 (a) 0 <= beta_j _|_  d_j . W_f^T nu' + sigma >= 0,   j = 1
@@ -59,9 +59,9 @@ struct LcpStepData {
 /// violated. Hence `reachable` and `all` solve the very same problems, and give the same trajectory to the
 /// last bit even where a problem has several solutions.
 ///
-/// A round cannot fail if nothing is penetrated at the start of the step: its matrix is copositive, and on a
-/// ray of Lemke's method the impulses u would satisfy W u = 0 and  u^T q = u_n^T psi / h < 0  (Stewart &
-/// Trinkle 1996, theorem 3.1; Cottle, Pang & Stone 1992, theorem 4.4.12).
+/// A round cannot fail if nothing is penetrated at the start of the step (Stewart & Trinkle 1996). Its matrix
+/// is copositive, so a ray of Lemke's method has a direction u >= 0 with  u^T M u = 0,  hence  W u = 0,  and
+/// u^T q < 0  (Cottle, Pang & Stone 1992, section 4.4);  but  u^T q = u_n^T psi / h + (W u)^T nu_f >= 0.
 ///
 /// Scaling: velocities by V, that of the free motion or of leaving the deepest penetration within the step,
 /// whichever is larger; impulses by V and the contact's reduced mass.

@@ -9,6 +9,10 @@ namespace touchstone {
 
 using Eigen::Index;
 
+namespace {
+constexpr std::size_t usual_deficiency = 4;  // a larger one makes the null space's storage grow
+}  // namespace
+
 Eigen::Map<Eigen::MatrixXd> DenseLu::matrix(Index n) {
   const auto size = static_cast<std::size_t>(n);
   if (storage_.size() < size * size) storage_.resize(size * size);
@@ -16,6 +20,11 @@ Eigen::Map<Eigen::MatrixXd> DenseLu::matrix(Index n) {
     inverse_pivot_.resize(size);
     column_scale_.resize(size);
     exchanges_.resize(size);
+    // What only a singular matrix needs, so that meeting the first one allocates nothing either.
+    row_order_.reserve(size);
+    column_order_.reserve(size);
+    permuted_.reserve(size);
+    null_space_.reserve(size * usual_deficiency);
   }
   n_ = n;
   return {storage_.data(), n, n};

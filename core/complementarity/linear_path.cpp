@@ -93,7 +93,7 @@ void LinearPath::prepare(const Eigen::VectorXd& q) {
   }
   const double scale = 1.0 + (n > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0);
   feasibility_ = options_.tie_tolerance * scale;
-  ratio_test_.prepare(feasibility_, options_.pivot_tolerance);
+  ratio_test_.prepare(n, feasibility_, options_.pivot_tolerance);
   result_ = {};
 }
 

@@ -52,6 +52,7 @@ void MeritSearch::resize(Index n) {
   }
   h_.resize(n, n);
   normal_.resize(n, n);
+  cholesky_ = Eigen::LLT<Eigen::MatrixXd>(n);  // or the first regularised step would allocate
   for (Eigen::VectorXd* v : {&gradient_, &step_, &best_z_}) v->resize(n);
 }
 

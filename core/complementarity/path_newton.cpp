@@ -18,6 +18,7 @@ PathNewton::PathNewton(const PathNewtonOptions& options)
 SolveReport PathNewton::solve(const MixedComplementarityProblem& problem, Eigen::VectorXd& z) {
   z = z.cwiseMax(problem.lower()).cwiseMin(problem.upper());
   tentative_steps_ = 0;
+  checkpoint_direction_.resize(z.size());
   if (!search_.start(problem, z)) return search_.finish(SolveStatus::non_finite, z);
   while (!search_.converged()) {
     if (search_.report().iterations >= options_.search.max_iterations) {

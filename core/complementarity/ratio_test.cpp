@@ -21,8 +21,6 @@ constexpr double equal_keys = 1e-10;
 void RatioTest::begin(const ComplementaryBasis& basis) {
   const Index n = basis.size();
   start_.clear();
-  start_.reserve(static_cast<std::size_t>(n));
-  candidates_.reserve(static_cast<std::size_t>(2 * n + 2));
   for (Index i = 0; i < n; ++i) {
     const PathVariable slack{Kind::slack, i};
     const PathVariable unknown{Kind::unknown, i};

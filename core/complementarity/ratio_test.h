@@ -24,7 +24,10 @@ class RatioTest {
 
   /// @param tie  distance within which two variables stop at once, in the unit of unknowns and slacks; > 0
   /// @param pivot  rates up to this, relative to the largest rate or 1, count as zero; > 0
-  void prepare(double tie, double pivot) {
+  void prepare(Eigen::Index unknowns, double tie, double pivot) {
+    // Here rather than at the first move, so that meeting the first one later allocates nothing.
+    start_.reserve(static_cast<std::size_t>(unknowns));
+    candidates_.reserve(static_cast<std::size_t>(2 * unknowns + 2));
     tie_tolerance_ = tie;
     pivot_tolerance_ = pivot;
     ties_broken_ = 0;

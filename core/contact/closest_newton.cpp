@@ -137,19 +137,19 @@ double defect(const BodyPair<Dim>& bodies, const Candidate<Dim>& candidate) {
 template <int Dim>
 double closest_newton(const BodyPair<Dim>& bodies, double slack, Candidate<Dim>& candidate) {
   constexpr int kMaximumSteps = 30;
-  constexpr double kSmall = 1e-9;  // changes this small shrink quadratically, or are rounding ...
-  constexpr double kLevel = 0.1;   // ... if they do not shrink to this
+  constexpr double kSmall = 1e-9;  // motion, over size, that shrinks quadratically or is rounding ...
+  constexpr double kLevel = 0.1;   // ... if all changes together do not shrink to this
   ActiveSide<Dim> side_1(bodies.body_1, candidate.a_1, -candidate.normal, slack);
   ActiveSide<Dim> side_2(bodies.body_2, candidate.a_2, candidate.normal, slack);
   double psi = candidate.gap();
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();  // change, with the same active inequalities
   for (int step = 0; step < kMaximumSteps && side_1.size() > 0 && side_2.size() > 0; ++step) {
     const auto change = Conditions<Dim>(side_1, side_2, psi, bodies.size).newton_step();
     if (!change.allFinite()) break;
     const bool exchanged = apply<Dim>(change, bodies.size, side_1, side_2, psi);
-    const double moved = change.template head<2 * Dim>().norm();
-    if (!exchanged && moved <= kSmall && moved >= kLevel * last) break;
-    last = moved;
+    const double changed = change.norm();
+    if (change.template head<2 * Dim>().norm() <= kSmall && changed >= kLevel * last) break;
+    last = exchanged ? std::numeric_limits<double>::infinity() : changed;
   }
   const double start = defect(bodies, candidate);
   const Candidate<Dim> reached{side_1.a(), side_2.a(), side_2.normal().normalized()};

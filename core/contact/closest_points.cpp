@@ -77,6 +77,7 @@ class Search {
       Distance<Dim> distance = gjk(moved, {1e-3 * apart, 0.1 * apart});
       distance.a_1 -= shift;
       if (take(distance, 0.1 * apart)) return true;
+      if (!(distance.v.norm() > 0)) break;
       const Vector<Dim> next = distance.v.normalized();
       const double reached = bodies_.separation(next);
       if (reached > separation) {
@@ -87,6 +88,7 @@ class Search {
     return false;
   }
   bool take(const Distance<Dim>& distance, double slack) {
+    if (!(distance.v.norm() > 0)) return false;  // no direction: touching, to the last digit
     return take(Candidate<Dim>{distance.a_1, distance.a_2, distance.v.normalized()}, slack);
   }
   bool take(Candidate<Dim> candidate, double slack) {

@@ -166,6 +166,7 @@ void ImplicitStepper<Dim>::recall(std::size_t i) {
   const Memory& memory = memory_[active_[i]];
   const ContactLayout& at = problem_.layout().contact(i);
   const Vector<Dim> center = problem_.body_1_position(i, z_);
+  problem_.set_normal_estimate(i, memory.normal);
   problem_.set_points(i, center + memory.a_1, center + memory.a_2, z_);
   z_.template segment<Dimension<Dim>::friction>(at.friction) = memory.y;
   z_[at.normal] = memory.p;
@@ -180,7 +181,11 @@ void ImplicitStepper<Dim>::find_points(std::size_t i) {
       closest_points(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
                      *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
   const Vector<Dim>& origin = problem_.prepared(i).origin;
-  problem_.set_points(i, closest.a_1 - origin, closest.a_2 - origin, z_);
+  const Vector<Dim> a_1 = closest.a_1 - origin;
+  const Vector<Dim> a_2 = closest.a_2 - origin;
+  problem_.set_normal_estimate(i, closest.normal);
+  problem_.set_points(i, a_1, a_2, z_);
+  problem_.set_multipliers(i, a_1, a_2, closest.normal, z_);
 }
 
 template <int Dim>
@@ -192,6 +197,7 @@ void ImplicitStepper<Dim>::accept() {
     Memory& memory = memory_[active_[i]];
     const Vector<Dim> center = problem_.body_1_position(i, z_);
     memory.valid = true;
+    memory.normal = contacts_.back().normal;
     memory.a_1 = problem_.point(i, 0) - center;
     memory.a_2 = problem_.point(i, 1) - center;
     memory.y = z_.template segment<Dimension<Dim>::friction>(at.friction);

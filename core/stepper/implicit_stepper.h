@@ -19,8 +19,8 @@ struct ImplicitOptions {
   int max_iterations = 100;  ///< Newton steps of one attempt; >= 1
 };
 
-/// The geometrically implicit time-stepper (Eqs. 4-11): each step solves closest points, contact, friction
-/// and dynamics together, at the end of the step, as one mixed complementarity problem.
+/// The geometrically implicit time-stepper (Eqs. 4-6, 9-11): each step solves closest points, contact,
+/// friction and dynamics together, at the end of the step, as one mixed complementarity problem.
 template <int Dim>
 class ImplicitStepper final : public Method<Dim> {
  public:
@@ -48,6 +48,7 @@ class ImplicitStepper final : public Method<Dim> {
     bool valid = false;
     Vector<Dim> a_1 = Vector<Dim>::Zero();  ///< relative to body 1, world axes
     Vector<Dim> a_2 = Vector<Dim>::Zero();
+    Vector<Dim> normal = Vector<Dim>::Zero();
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
     double s = 0.0;

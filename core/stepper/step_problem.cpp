@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/surfaces/normal_combination.h"
+
 namespace touchstone {
 
 namespace {
@@ -91,6 +93,7 @@ void StepProblem<Dim>::prepare_contact(std::size_t i) {
   const ContactPair<Dim>& pair = contacts_[i];
   PreparedContact<Dim>& prepared = prepared_[i];
   prepared.origin = start_[static_cast<std::size_t>(pair.body_1)].pose.position;
+  prepared.reference = pair.law.tangent.normalized();
   prepared.semi_axes = pair.law.semi_axes();
   prepared.active = (prepared.semi_axes.array() != 0).template cast<double>();
   prepared.mass = lighter_mass(pair.body_1, pair.body_2);
@@ -253,6 +256,29 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
       z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
     } else {
       z.template segment<Dim>(column) = relative;
+    }
+  }
+}
+
+template <int Dim>
+void StepProblem<Dim>::set_multipliers(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
+                                       const Vector<Dim>& normal, Eigen::VectorXd& z) const {
+  constexpr double kActive = 1e-6;  // of L: inequalities this close to the point may carry the normal
+  const ContactPair<Dim>& pair = contacts_[i];
+  const ContactLayout& at = layout_.contact(i);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const bool first = k == 0;
+    const Side<Dim>& side = first ? pair.side_1 : pair.side_2;
+    if (side.kind != SideKind::intersection) continue;
+    const Pose<Dim> pose = body_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z).pose;
+    const Vector<Dim> outward = pose.rotation.matrix().transpose() * (first ? -normal : normal);
+    const NormalCombination<Dim> combination = normal_combination(
+        *side.surface, pose.to_body(first ? a_1 : a_2), outward, kActive * row_options_.scale.length);
+    const Eigen::Index column = first ? at.multipliers_1 : at.multipliers_2;
+    z.segment(column, side.multipliers()).setZero();
+    for (int l = 0; l < combination.size; ++l) {
+      const auto index = static_cast<std::size_t>(l);
+      z[column + combination.index[index]] = combination.multiplier[index];
     }
   }
 }

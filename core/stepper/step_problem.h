@@ -54,6 +54,15 @@ class StepProblem final : public MixedComplementarityProblem {
   /// Writes the unknowns of contact i for given closest points, world frame; impulses and multipliers are
   /// left alone.
   void set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2, Eigen::VectorXd& z) const;
+  /// Chooses the direction whose projection is t, for a contact whose normal is near `normal`: the law's, or
+  /// another where that one is too close to the normal to define t.
+  void set_normal_estimate(std::size_t i, const Vector<Dim>& normal) {
+    prepared_[i].reference = usable_reference(normal, contacts_[i].law.tangent);
+  }
+  /// Writes the multipliers of contact i, l of intersections, for closest points relative to
+  /// prepared(i).origin whose normal out of body 2 is `normal`; does nothing for other shapes.
+  void set_multipliers(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
+                       const Vector<Dim>& normal, Eigen::VectorXd& z) const;
   /// Position of body 1 of contact i at the end of the step, relative to prepared(i).origin.
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
     return body_at_end(contacts_[i].body_1, prepared_[i].origin, z).pose.position;

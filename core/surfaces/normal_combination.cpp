@@ -27,13 +27,12 @@ class PassiveSet {
 
   /// Takes inequality i in, and out what then becomes negative.
   void add(int i) {
-    append(i, 0.0);
+    append(i);
     while (found_.size > 0) {
       const Weights best = columns().colPivHouseholderQr().solve(normal_);
-      const double step = allowed_step(best);
-      for (int k = 0; k < found_.size; ++k) weight(k) += step * (best[k] - weight(k));
-      if (step == 1.0) break;
-      drop_zeros(best);
+      const int blocking = move_towards(best);
+      if (blocking < 0) break;
+      remove(blocking);
     }
     found_.residual = normal_;
     for (int k = 0; k < found_.size; ++k) found_.residual -= weight(k) * gradients_.col(k);
@@ -47,32 +46,32 @@ class PassiveSet {
   int& index(int k) { return found_.index[static_cast<std::size_t>(k)]; }
   [[nodiscard]] Columns columns() const { return gradients_.leftCols(found_.size); }
 
-  void append(int i, double w) {
-    gradients_.col(found_.size) = surface_.jet(i, x_).gradient;
-    index(found_.size) = i;
-    weight(found_.size) = w;
-    ++found_.size;
-  }
-  /// How far towards `best`, at most 1, the weights can go and stay nonnegative.
-  double allowed_step(const Weights& best) {
+  /// Changes the weights to `best`, or as far towards it as none becomes negative.
+  /// @return the weight that stops it, now 0; -1 if none does
+  int move_towards(const Weights& best) {
+    int blocking = -1;
     double step = 1.0;
     for (int k = 0; k < found_.size; ++k) {
-      if (best[k] <= 0) step = std::min(step, weight(k) / (weight(k) - best[k]));
+      if (best[k] > 0) continue;
+      const double allowed = weight(k) > 0 ? weight(k) / (weight(k) - best[k]) : 0.0;
+      if (blocking >= 0 && allowed >= step) continue;
+      blocking = k;
+      step = allowed;
     }
-    return step;
+    for (int k = 0; k < found_.size; ++k) weight(k) += step * (best[k] - weight(k));
+    return blocking;
   }
-  void drop_zeros(const Weights& best) {
-    const double largest =
-        *std::max_element(found_.multiplier.begin(), found_.multiplier.begin() + found_.size);
-    int kept = 0;
-    for (int k = 0; k < found_.size; ++k) {
-      if (best[k] <= 0 && weight(k) <= 1e-14 * largest) continue;
-      index(kept) = index(k);
-      weight(kept) = weight(k);
-      gradients_.col(kept) = gradients_.col(k).eval();
-      ++kept;
-    }
-    found_.size = kept;
+  void append(int i) {
+    gradients_.col(found_.size) = surface_.jet(i, x_).gradient;
+    index(found_.size) = i;
+    weight(found_.size) = 0.0;
+    ++found_.size;
+  }
+  void remove(int k) {
+    const int last = --found_.size;
+    index(k) = index(last);
+    weight(k) = weight(last);
+    gradients_.col(k) = gradients_.col(last).eval();
   }
 
   const ConvexSurface<Dim>& surface_;

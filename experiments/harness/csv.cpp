@@ -37,15 +37,15 @@ std::strong_ordering compare_natural(std::string_view a, std::string_view b) {
     if (is_digit(a.front()) && is_digit(b.front())) {
       const std::string_view run_a = take_digits(a);
       const std::string_view run_b = take_digits(b);
-      if (const auto by_length = run_a.size() <=> run_b.size(); by_length != 0) return by_length;
-      if (const auto by_digits = run_a <=> run_b; by_digits != 0) return by_digits;
+      if (const auto by_length = run_a.size() <=> run_b.size(); std::is_neq(by_length)) return by_length;
+      if (const auto by_digits = run_a <=> run_b; std::is_neq(by_digits)) return by_digits;
     } else {
-      if (const auto by_char = a.front() <=> b.front(); by_char != 0) return by_char;
+      if (const auto by_char = a.front() <=> b.front(); std::is_neq(by_char)) return by_char;
       a.remove_prefix(1);
       b.remove_prefix(1);
     }
   }
-  if (const auto by_rest = a.size() <=> b.size(); by_rest != 0) return by_rest;
+  if (const auto by_rest = a.size() <=> b.size(); std::is_neq(by_rest)) return by_rest;
   return whole_a <=> whole_b;
 }
 
@@ -62,7 +62,7 @@ struct SortKey {
   [[nodiscard]] bool operator<(const SortKey& other) const {
     if (kind != other.kind) return kind < other.kind;
     if (kind == 1 && number != other.number) return number < other.number;
-    return compare_natural(text, other.text) < 0;
+    return std::is_lt(compare_natural(text, other.text));
   }
 };
 

@@ -175,12 +175,16 @@ void Value::fail_length(std::size_t got, const std::string& allowed) const {
   fail(fmt::format("{} numbers", got), allowed);
 }
 
-void Value::fail_at(std::string_view root, std::string_view message) const {
+void Value::fail_at(std::string_view path, const std::string& got, const std::string& allowed) const {
+  throw LocatedError(fmt::format("{}: {}{}", place(*file_, follow_path(*node_, path).source()), name_, path),
+                     got, allowed);
+}
+
+void Value::fail_again(std::string_view root, std::string_view message) const {
   const Complaint complaint(message);
   std::string_view path = complaint.field;
   if (path.starts_with(root)) path.remove_prefix(root.size());
-  throw LocatedError(fmt::format("{}: {}{}", place(*file_, follow_path(*node_, path).source()), name_, path),
-                     std::string(complaint.got), std::string(complaint.allowed));
+  fail_at(path, std::string(complaint.got), std::string(complaint.allowed));
 }
 
 Table::Table(const toml::table& table, std::string name, std::string_view separator, const std::string& file,

@@ -73,11 +73,12 @@ class Value {
   [[nodiscard]] Value named(std::string name) const { return {*node_, std::move(name), *file_}; }
 
   [[noreturn]] void fail(const std::string& got, const std::string& allowed) const;
+  /// About what `path` leads to from here, or as far as the file has it: ".parts[1].radius".
+  [[noreturn]] void fail_at(std::string_view path, const std::string& got, const std::string& allowed) const;
   [[noreturn]] void fail_length(std::size_t got, const std::string& allowed) const;
 
-  /// The result of `check()`. An InputError of it about "<root><path>" is thrown on with this value's name in
-  /// the place of `root` and the place in the file of what `path` leads to from here, as in
-  /// ".parts[1].radius".
+  /// The result of `check()`. An InputError of it about "<root><path>" becomes one about what `path` leads to
+  /// from here, under this value's name in the place of `root`.
   template <typename Check>
   auto checked(std::string_view root, const Check& check) const {
     try {
@@ -85,13 +86,13 @@ class Value {
     } catch (const LocatedError&) {
       throw;
     } catch (const InputError& error) {
-      fail_at(root, error.what());
+      fail_again(root, error.what());
     }
   }
 
  private:
   [[noreturn]] void fail_kind(const std::string& allowed) const;
-  [[noreturn]] void fail_at(std::string_view root, std::string_view message) const;
+  [[noreturn]] void fail_again(std::string_view root, std::string_view message) const;
   void require_unit(std::span<const double> v) const;
 
   const toml::node* node_;

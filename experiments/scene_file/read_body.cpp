@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/model/errors.h"
+#include "core/model/mass_properties.h"
 #include "experiments/scene_file/read_shape.h"
 
 namespace touchstone::scene_file {
@@ -30,15 +32,34 @@ Inertia<3> inertia_of_numbers(const Value& value, Dimension<3>) {
 Angular<2> read_angular(const Value& value, Dimension<2>) { return Angular<2>(value.number()); }
 Angular<3> read_angular(const Value& value, Dimension<3>) { return value.vector<3>(); }
 
+/// A body's origin is its centre of mass, so a uniform solid must have its own there.
 template <int Dim>
-Inertia<Dim> uniform_inertia_of(const Value& value, const Body<Dim>&) {
-  value.fail("'uniform'", "numbers");
+void require_centered(const Value& value, const Body<Dim>& body) {
+  constexpr double kTolerance = 1e-9;  // of the radius of gyration, which is as large as the shape
+  const MassProperties<Dim> properties = mass_properties(body.shape);
+  if (properties.center.norm() <= kTolerance * std::sqrt(properties.inertia.trace())) return;
+  const Vector<Dim> center = body.shape.placement.position - properties.center;
+  value.fail(fmt::format("'uniform', of a solid with its centre of mass at [{}]",
+                         fmt::join(properties.center.begin(), properties.center.end(), ", ")),
+             fmt::format("a centre of mass at the body's origin, as with center = [{}] in the shape",
+                         fmt::join(center.begin(), center.end(), ", ")));
+}
+
+template <int Dim>
+Inertia<Dim> uniform_inertia_of(const Value& value, const Body<Dim>& body) {
+  try {
+    require_centered(value, body);
+    return uniform_inertia(body.shape, body.mass);
+  } catch (const Unsupported& reason) {
+    value.fail("'uniform'", fmt::format("numbers [kg m^2] ({})", reason.what()));
+  }
 }
 
 template <int Dim>
 Inertia<Dim> read_inertia(const Value& value, const Body<Dim>& body) {
   if (!value.is_text()) return inertia_of_numbers(value, Dimension<Dim>{});
-  if (value.text() != "uniform") value.fail("'" + value.text() + "'", "numbers [kg m^2] or \"uniform\"");
+  if (value.text() != "uniform")
+    value.fail(fmt::format("'{}'", value.text()), "numbers [kg m^2] or \"uniform\"");
   return uniform_inertia_of(value, body);
 }
 

@@ -31,7 +31,7 @@ void read_bodies(const std::vector<Value>& entries, Scene<Dim>& scene) {
   for (const Value& entry : entries) {
     Body<Dim> body = read_body<Dim>(entry);
     if (!names.insert(body.name).second) {
-      entry.member("name", "").fail("'" + body.name + "' twice", "a different name for each body");
+      entry.fail_at(" name", "'" + body.name + "' twice", "a different name for each body");
     }
     scene.bodies.push_back(std::move(body));
   }
@@ -46,11 +46,9 @@ void refuse_overlap(const std::vector<Value>& bodies, const Scene<Dim>& scene) {
   const auto b = static_cast<std::size_t>(overlap->body_b);
   const auto [moved, other] = scene.bodies[b].fixed ? std::pair(a, b) : std::pair(b, a);
   const Value body = bodies[moved].named(fmt::format("body '{}'", scene.bodies[moved].name));
-  body.checked("", [&] {
-    throw InputError(" position",
-                     fmt::format("an overlap of {} m with '{}'", overlap->depth, scene.bodies[other].name),
-                     fmt::format("at most {} m at the start, 1e-9 of the smaller body", overlap->allowed));
-  });
+  body.fail_at(" position",
+               fmt::format("an overlap of {} m with '{}'", overlap->depth, scene.bodies[other].name),
+               fmt::format("at most {} m at the start, 1e-9 of the smaller body", overlap->allowed));
 }
 
 template <int Dim>

@@ -82,12 +82,18 @@ std::string list_capabilities(const std::optional<Capabilities>& capabilities) {
   return names.empty() ? "-" : fmt::format("{}", fmt::join(names, ","));
 }
 
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 template <int Dim>
 std::string describe(const Scene<Dim>& scene) {
-  const auto moving =
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.fixed; });
-  return fmt::format("{} dimensions, {} bodies of which {} move, {} pair laws, {} joints", Dim,
-                     scene.bodies.size(), moving, scene.pair_laws.size(), scene.joints.size());
+  const auto moving = static_cast<std::size_t>(
+      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.fixed; }));
+  return fmt::format("{} dimensions, {} of which {}, {}, {}", Dim,
+                     counted(scene.bodies.size(), "body", "bodies"), counted(moving, "moves", "move"),
+                     counted(scene.pair_laws.size(), "pair law", "pair laws"),
+                     counted(scene.joints.size(), "joint", "joints"));
 }
 
 }  // namespace

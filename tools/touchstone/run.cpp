@@ -20,7 +20,10 @@ namespace {
 template <int Dim>
 std::unique_ptr<Method<Dim>> load(const Scene<Dim>& scene, const RunRequest& request) {
   try {
-    return find_method<Dim>(request.method).make(scene, request.options);
+    auto method = find_method<Dim>(request.method).make(scene, request.options);
+    // Whatever a method refuses by itself: without its joints this would be another scene.
+    if (!scene.joints.empty() && !method->capabilities().joints) throw Unsupported("it has no joints");
+    return method;
   } catch (const Unsupported& reason) {
     throw InputError(fmt::format("method {}", request.method), request.scene.string(),
                      fmt::format("a scene that it can represent ({})", reason.what()));

@@ -19,7 +19,8 @@ struct FiredEvent {
 /// is not armed waits until it has been seen positive: so "slip back to zero" can be watched from an
 /// instant at which slip is zero. Each function is looked at in every collocation node of a step;
 /// where three neighbouring values show a minimum that may lie below zero, the minimum itself is
-/// sought, so that a short excursion between two nodes is not missed.
+/// sought, so that a short excursion between two nodes is not missed (except within the last 1.3 %
+/// of a step, where it would have to be shorter than that).
 template <int N, std::size_t M>
 class EventWatch {
  public:

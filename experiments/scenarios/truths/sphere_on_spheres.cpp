@@ -25,9 +25,10 @@ enum { x_at = 0, v_at = 3, slip_at = 6, q_at = 10 };
 constexpr std::size_t events_per_contact = 2;
 using Margins = std::array<double, 2 * events_per_contact>;
 
-/// Slip below which a sliding contact counts as having come
-/// to rest; it passes this value once while slip grows.
+/// w below which a sliding contact counts as having come to rest; it passes this value once while slip grows.
 constexpr double no_slip = 1e-12;
+/// Gap above which a contact has opened, and at which it closes again: more than rounding.
+constexpr double open_gap = 1e-12;            // [m]
 constexpr double ordinary_first_step = 0.01;  // [s]
 
 class Simulation {
@@ -41,7 +42,7 @@ class Simulation {
 
   SphereOnSpheresResult run() {
     if (!begin()) return std::move(result_);
-    while (result_.status == SphereOnSpheresStatus::completed && next_sample_ < times_.size())
+    while (next_sample_ < times_.size() && result_.status == SphereOnSpheresStatus::completed)
       integrate_phase();
     result_.end = t_;
     return std::move(result_);
@@ -106,7 +107,7 @@ class Simulation {
           result[events_per_contact * i + 1] = contacts[i].scaled_velocity(contacts[i].slip).norm() - no_slip;
           break;
         case BallContactMode::apart:
-          first = contacts[i].gap;
+          first = contacts[i].gap - open_gap;
           break;
       }
     }

@@ -35,7 +35,8 @@ enum class BallContactMode {
   apart
 };
 
-/// Everything about one contact at one time. "On the ball" is force or motion of the moving ball.
+/// Everything about one contact at one time. While it is apart the forces are
+/// zero, and slip and spin are those of the ball's point nearest to the support.
 struct BallContactSample {
   BallContactMode mode = BallContactMode::apart;
   double gap = 0.0;                                    ///< [m]

@@ -11,47 +11,9 @@
 
 #include "core/complementarity/linear_path.h"
 #include "core/complementarity/solver_chain.h"
+#include "tests/support/allocation_counter.h"
 #include "tests/unit/complementarity/box_step.h"
 #include "tests/unit/complementarity/problems.h"
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TOUCHSTONE_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__)
-#define TOUCHSTONE_SANITIZED
-#endif
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-#ifndef TOUCHSTONE_SANITIZED
-extern "C" {
-void* __libc_malloc(std::size_t size);  // NOLINT(bugprone-reserved-identifier): glibc's own
-void* __libc_calloc(std::size_t count, std::size_t size);     // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* memory, std::size_t size);         // NOLINT(bugprone-reserved-identifier)
-void* __libc_memalign(std::size_t alignment, std::size_t n);  // NOLINT(bugprone-reserved-identifier)
-
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, std::size_t size) {
-  ++allocations;
-  return __libc_realloc(memory, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
 
 namespace touchstone {
 namespace {
@@ -71,9 +33,7 @@ long count(const std::function<void()>& action) {
 class Allocation : public ::testing::Test {
  protected:
   void SetUp() override {
-#ifdef TOUCHSTONE_SANITIZED
-    GTEST_SKIP() << "the sanitizer owns malloc";
-#endif
+    if (!kAllocationsAreCounted) GTEST_SKIP() << "the sanitizer owns malloc";
   }
 };
 

@@ -259,7 +259,7 @@ const Fault kFaults[] = {
     {"UnknownJoint", kSpatial, "\"hinge\"", "\"screw\"",
      "30:8: joint 1 type: got 'screw', allowed: ball, fixed, hinge, slider"},
     {"NameTwice", kSpatial, "\"block\"", "\"ball\"",
-     "21:8: body 3.name: got 'ball' twice, allowed: a different name for each body"},
+     "21:8: body 3 name: got 'ball' twice, allowed: a different name for each body"},
     {"BodyWithItself", kSpatial, "\"ball\", \"ground\"", "\"ball\", \"ball\"",
      "27:19: pair 1 bodies[1]: got one body twice"},
     {"PairTwice", kSpatial, "", "[[pair]]\nbodies = [\"ground\", \"ball\"]\n",
