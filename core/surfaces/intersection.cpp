@@ -41,7 +41,7 @@ Vector<Dim> IntersectionSurface<Dim>::support(const Vector<Dim>& direction) cons
 }
 
 template <int Dim>
-typename ConvexSurface<Dim>::BoundingBall IntersectionSurface<Dim>::smallest_ball() const {
+auto IntersectionSurface<Dim>::smallest_ball() const -> BoundingBall {
   BoundingBall smallest = parts_.front()->bounding_ball();
   for (const Part& part : parts_) {
     const BoundingBall ball = part->bounding_ball();
@@ -52,7 +52,7 @@ typename ConvexSurface<Dim>::BoundingBall IntersectionSurface<Dim>::smallest_bal
 
 /// The ball through the corners of the body's box of extents.
 template <int Dim>
-typename ConvexSurface<Dim>::BoundingBall IntersectionSurface<Dim>::ball_around_extents() const {
+auto IntersectionSurface<Dim>::ball_around_extents() const -> BoundingBall {
   Vector<Dim> low;
   Vector<Dim> high;
   for (int k = 0; k < Dim; ++k) {
