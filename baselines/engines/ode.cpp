@@ -49,7 +49,7 @@ void enter_ode() {
   static const int started = dInitODE2(0);
   static_cast<void>(started);
   dSetMessageHandler(&note_message);
-  thread_local const int allocated = dAllocateODEDataForThread(dAllocateMaskAll);
+  thread_local const int allocated = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   static_cast<void>(allocated);
 }
 
