@@ -21,9 +21,11 @@ std::string no_library() { return {}; }
 /// Our own formulations; they have no version but the repository's.
 template <int Dim>
 constexpr std::array kFormulations = {
-    MethodEntry<Dim>{"implicit_ncp", "Geometrically implicit NCP time-stepper (Chakraborty et al. 2007, Eqs. 10-11)",
+    MethodEntry<Dim>{"implicit_ncp",
+                     "Geometrically implicit NCP time-stepper (Chakraborty et al. 2007, Eqs. 10-11)",
                      &make_implicit_ncp<Dim>, &no_library},
-    MethodEntry<Dim>{"stewart_trinkle", "LCP time-stepper, linearised gaps, friction pyramid (Stewart & Trinkle 1996)",
+    MethodEntry<Dim>{"stewart_trinkle",
+                     "LCP time-stepper, linearised gaps, friction pyramid (Stewart & Trinkle 1996)",
                      &make_stewart_trinkle<Dim>, &no_library},
 };
 

@@ -21,9 +21,9 @@ class MixedComplementarityProblem {
   [[nodiscard]] virtual const Eigen::VectorXd& lower() const = 0;
   [[nodiscard]] virtual const Eigen::VectorXd& upper() const = 0;
 
-  /// Writes F(z), size() entries, and, unless `jacobian` is null, an element of its generalised Jacobian dF/dz,
-  /// size() x size(), every entry. Both are already of the right size. Does not allocate.
-  /// Where F is not defined the entries are not finite; a solver treats such a z as one it may not step to.
+  /// Writes F(z), size() entries, and, unless `jacobian` is null, an element of its generalised Jacobian
+  /// dF/dz, size() x size(), every entry. Both are already of the right size. Does not allocate. Where F is
+  /// not defined the entries are not finite; a solver treats such a z as one it may not step to.
   virtual void evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const = 0;
 
   /// What a row states, for messages: "gap of contact 2 (ball, ground)".
