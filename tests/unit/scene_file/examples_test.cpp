@@ -109,8 +109,17 @@ TEST(Examples, TenBodiesHaveEveryShapeOfSpace) {
   EXPECT_EQ(shapes.size(), std::variant_size_v<Geometry<3>::Variant>);
 }
 
+TEST(Examples, TheLensHasTheInertiaOfTwoCaps) {
+  const Scene<3> scene = example_of<3>("ten_bodies");
+  const Inertia<3>& lens = scene.bodies[static_cast<std::size_t>(scene.body("lens"))].inertia;
+  // Of the solid of revolution r(z)^2 = 0.16 - (|z| + 0.3)^2, |z| <= 0.1, by integration with exact
+  // fractions.
+  EXPECT_NEAR(lens(0, 0), 0.013681818181818182, 1e-9);
+  EXPECT_NEAR(lens(2, 2), 0.023909090909090908, 1e-9);
+}
+
 TEST(Examples, EulersDiscIsInSteadyRolling) {
-  const Body<3>& coin = example_of<3>("euler_disc").bodies.at(0);
+  const Body<3> coin = example_of<3>("euler_disc").bodies.at(0);
   const auto& cylinder = std::get<Cylinder>(coin.shape.geometry);
   const double a = cylinder.radius;
   const double d = cylinder.half_height;
