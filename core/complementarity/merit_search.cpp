@@ -50,9 +50,9 @@ void MeritSearch::resize(Index n) {
     point->phi.resize(n);
     point->jacobian.resize(n, n);
   }
-  h_.resize(n, n);
+  h_.setIdentity(n, n);
   normal_.resize(n, n);
-  cholesky_ = Eigen::LLT<Eigen::MatrixXd>(n);  // or the first regularised step would allocate
+  cholesky_.compute(h_);  // takes its storage here, not in the first regularised step
   for (Eigen::VectorXd* v : {&gradient_, &step_, &best_z_}) v->resize(n);
 }
 

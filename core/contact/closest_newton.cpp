@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/surfaces/active_set.h"
@@ -92,14 +93,31 @@ class Conditions {
     f.segment(l_2, n_2) = side_2_.values() / unit_;
     j.block(l_2, Dim, n_2, Dim) = g_2.transpose();
 
-    // A pivoted QR leaves what the rows do not determine (flat on flat) where it is.
-    constexpr double kSingular = 1e-13;
-    Eigen::ColPivHouseholderQR<Jacobian> qr(size, size);
-    qr.setThreshold(kSingular);
-    return -qr.compute(j).solve(f);
+    return -solve_equilibrated(j, f);
   }
 
  private:
+  /// Solves J x = f with rows and columns scaled to one size: a needle's curvature and a floor's flatness are
+  /// many decades apart. A pivoted QR leaves what the rows do not determine (flat on flat) at 0.
+  static Unknowns solve_equilibrated(Jacobian& j, Unknowns& f) {
+    constexpr double kSingular = 1e-13;
+    for (Eigen::Index row = 0; row < j.rows(); ++row) {
+      const double largest = j.row(row).cwiseAbs().maxCoeff();
+      if (!(largest > 0)) continue;
+      j.row(row) /= largest;
+      f[row] /= largest;
+    }
+    Unknowns scale(j.cols());
+    for (Eigen::Index column = 0; column < j.cols(); ++column) {
+      const double largest = j.col(column).cwiseAbs().maxCoeff();
+      scale[column] = largest > 0 ? 1 / largest : 1.0;
+      j.col(column) *= scale[column];
+    }
+    Eigen::ColPivHouseholderQR<Jacobian> qr(j.rows(), j.cols());
+    qr.setThreshold(kSingular);
+    return scale.cwiseProduct(qr.compute(j).solve(f));
+  }
+
   const ActiveSide<Dim>& side_1_;
   const ActiveSide<Dim>& side_2_;
   double psi_;
@@ -131,7 +149,7 @@ double defect(const BodyPair<Dim>& bodies, const Candidate<Dim>& candidate) {
   const double psi = candidate.normal.dot(d);
   const double off_normal = (d - psi * candidate.normal).norm();
   const double outside = std::max(bodies.body_1.outside(candidate.a_1), bodies.body_2.outside(candidate.a_2));
-  return std::max({off_normal, outside, psi - bodies.separation(candidate.normal)});
+  return std::max({off_normal, outside, std::abs(psi - bodies.separation(candidate.normal))});
 }
 
 template <int Dim>

@@ -17,7 +17,7 @@ struct Candidate {
 /// How far a candidate is from being proven, [m]: the largest of
 ///   - |a_1 - a_2 - psi n|, psi = n.(a_1 - a_2);
 ///   - how far a_1 and a_2 are outside their bodies;
-///   - psi - s(n): where the points are not the bodies' extreme ones along n.
+///   - |psi - s(n)|: by how much the points are not the bodies' extreme ones along n.
 /// At 0 the points lie in the bodies and are |psi| apart, and no two points are closer (psi > 0), or n is a
 /// direction of stationary overlap (psi < 0): an upper and a lower bound that meet.
 template <int Dim>

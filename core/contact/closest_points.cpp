@@ -48,6 +48,7 @@ class Search {
     constexpr GjkOptions kFinest{1e-15, 1e-15};
     const Distance<Dim> distance = gjk(bodies_, kCoarse);
     if (distance.lower > 0) {
+      floor_ = distance.lower;
       if (take(distance, 1e-2) || take(gjk(bodies_, kFine), 1e-4) || take(gjk(bodies_, kFinest), 1e-6))
         return;
       settle(distance.v.normalized());

@@ -1,4 +1,5 @@
 target_sources(touchstone_core PRIVATE
+  ${CMAKE_CURRENT_LIST_DIR}/closest_multipliers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/closest_newton.cpp
   ${CMAKE_CURRENT_LIST_DIR}/closest_points.cpp
   ${CMAKE_CURRENT_LIST_DIR}/expanding_polytope.cpp

@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "core/model/errors.h"
+#include "core/model/moments.h"
+#include "core/surfaces/radial_moments.h"
 
 namespace touchstone {
 
@@ -17,14 +19,6 @@ namespace {
 /// plane.
 Inertia<2> inertia_of_moments(const Matrix<2>& c) { return Inertia<2>(c.trace()); }
 Inertia<3> inertia_of_moments(const Matrix<3>& c) { return c.trace() * Matrix<3>::Identity() - c; }
-
-/// Mean position and second moments about it, of unit mass, in the shape's own frame.
-template <int Dim>
-struct Moments {
-  double measure = 0.0;
-  Vector<Dim> center = Vector<Dim>::Zero();
-  Matrix<Dim> second = Matrix<Dim>::Zero();
-};
 
 template <int Dim>
 Moments<Dim> centered(double measure, const Vector<Dim>& second) {
@@ -168,6 +162,12 @@ struct MomentsOf {
             Vector<3>(3 * r2 / 20, 3 * r2 / 20, 3 * h2 / 80).asDiagonal()};
   }
   Moments<3> operator()(const Capsule& s) const { return capsule(s); }
+  Moments<Dim> operator()(const Intersection<Dim>& s) const {
+    constexpr double kTolerance = 1e-10;
+    Shape<Dim> unplaced;
+    unplaced.geometry = s;
+    return radial_moments(*make_surface(unplaced), kTolerance);
+  }
   template <typename Other>
   Moments<Dim> operator()(const Other&) const {
     throw Unsupported(fmt::format("mass properties of a {}: give the inertia as numbers", shape_name(shape)));

@@ -111,6 +111,7 @@ Body<Dim> read_body(const Value& unnamed) {
     require_still(table, body);
   } else {
     body.mass = table.require("mass", "a number > 0 [kg]").number();
+    check(value, body);  // before the mass goes into a uniform inertia
     body.inertia = read_inertia(table.require("inertia", "numbers [kg m^2] or \"uniform\""), body);
   }
   check(value, body);

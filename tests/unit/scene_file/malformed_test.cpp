@@ -151,6 +151,18 @@ const Fault kFaults[] = {
      "2:12: friction: got 0.3, allowed: a table"},
     {"InertiaIsOtherText", kSpatial, "inertia = [1, 1, 1]", "inertia = \"solid\"",
      "23:11: body 'block' inertia: got 'solid'"},
+    {"UniformOffCentre", kSpatial, "inertia = [1, 1, 1]\nposition = [5, 0, 1]\nshape = { type = \"box\",",
+     "inertia = \"uniform\"\nposition = [5, 0, 1]\nshape = { type = \"cone\", radius = 1, height = 1 "
+     "}\n[[body]]\nname = \"b\"\nmass = 1.0\ninertia = [1, 1, 1]\nposition = [9, 0, 1]\nshape = { type = "
+     "\"box\",",
+     "23:11: body 'block' inertia: got 'uniform', of a solid with its centre of mass at [0, 0, 0.25], "
+     "allowed: a centre of mass at the body's origin, as with center = [0, 0, -0.25] in the shape"},
+    {"UniformHalfSpace", kSpatial, "inertia = [0.4, 0.4, 0.4]\n",
+     "inertia = \"uniform\"\nshape = { type = \"half_space\", normal = [0, 0, 1], offset = 0 "
+     "}\n[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n",
+     "11:11: body 'ball' inertia: got 'uniform', allowed: numbers [kg m^2] ("},
+    {"MassOfAUniform", kSpatial, "mass = 1.0\ninertia = [0.4, 0.4, 0.4]", "mass = -1\ninertia = \"uniform\"",
+     "10:8: body 'ball' mass: got -1"},
     {"OneOfThemIsText", kSpatial, "position = [0, 0, 1]", "position = [0, \"0\", 1]",
      "12:16: body 'ball' position[1]: got '0', allowed: a number"},
     // Of another length.

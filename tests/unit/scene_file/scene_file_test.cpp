@@ -243,6 +243,30 @@ TEST(SceneFile, IntersectionsHavePartsWithPlacesOfTheirOwnAndMayBeNested) {
   EXPECT_EQ(std::get<Intersection<3>>(outer.parts[1].geometry).parts.size(), 2u);
 }
 
+TEST(SceneFile, UniformInertiaIsThatOfTheShapeWhereItIsPlaced) {
+  const Scene<3> scene = parse<3>(R"(
+dimension = 3
+gravity = [0, 0, 0]
+[[body]]
+name = "cone"
+mass = 2
+inertia = "uniform"
+shape = { type = "cone", radius = 0.2, height = 0.4, center = [-0.1, 0, 0], rotation = [0.7071067811865476, 0, 0.7071067811865476, 0] }
+)");
+  // About the axis 3/10 m r^2, across 3/20 m r^2 + 3/80 m h^2; the axis lies along x.
+  const double along = 0.3 * 2 * 0.04;
+  const double across = 0.15 * 2 * 0.04 + 3.0 / 80 * 2 * 0.16;
+  EXPECT_TRUE(
+      scene.bodies.at(0).inertia.isApprox(Inertia<3>(Vector<3>(along, across, across).asDiagonal()), 1e-12))
+      << scene.bodies.at(0).inertia;
+  const Scene<2> plane = parse<2>(R"(
+dimension = 2
+gravity = [0, 0]
+body = [{ name = "disc", mass = 3, inertia = "uniform", shape = { type = "disc", radius = 2 } }]
+)");
+  EXPECT_NEAR(plane.bodies.at(0).inertia(0, 0), 0.5 * 3 * 4, 1e-12);
+}
+
 TEST(SceneFile, AFixedBodyMayBeGivenWhatIsNotReadOrIsZero) {
   const Scene<2> scene = parse<2>(R"(
 dimension = 2
