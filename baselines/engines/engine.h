@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "baselines/engines/motion.h"
 #include "core/method.h"
 
 /// What an adapter writes: load a scene in the constructor, advance, read back. Everything that is the same
@@ -15,10 +16,6 @@ struct MassProperties {
   double mass = 0.0;                            ///< [kg]
   Inertia<Dim> inertia = Inertia<Dim>::Zero();  ///< about the centre of mass, body frame [kg m^2]
 };
-
-/// Which motion a spatial engine is to allow: `planar` keeps bodies in z = 0, turning about z alone, by the
-/// engine's own means (a planar joint, locked axes).
-enum class Motion { spatial, planar };
 
 /// One loaded world. Body indices are those of the scene.
 template <int Dim>

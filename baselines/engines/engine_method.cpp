@@ -74,9 +74,18 @@ void EngineMethod<Dim>::check_echo(double precision) const {
 }
 
 template <int Dim>
+StepReport EngineMethod<Dim>::guarded_advance(double h) {
+  try {
+    return engine_->advance(h);
+  } catch (const std::exception&) {
+    return {.status = StepStatus::not_converged, .reason = "the engine threw an exception"};
+  }
+}
+
+template <int Dim>
 StepReport EngineMethod<Dim>::step(double h) {
   if (failure_.status != StepStatus::solved) return failure_;
-  StepReport report = engine_->advance(h);
+  StepReport report = guarded_advance(h);
   if (report.status == StepStatus::solved) {
     read_state(next_state_);
     if (!is_finite(next_state_)) {

@@ -32,6 +32,7 @@ class EngineMethod final : public Method<Dim>, public TellsMass<Dim> {
  private:
   void read_state(std::vector<BodyState<Dim>>& state) const;
   void check_echo(double precision) const;
+  StepReport guarded_advance(double h);
 
   Scene<Dim> scene_;
   Options effective_;

@@ -4,7 +4,6 @@ set(engines_dir ${CMAKE_CURRENT_LIST_DIR})
 find_package(PkgConfig REQUIRED)
 
 target_sources(touchstone_baselines PRIVATE
-  ${engines_dir}/../isolation.cpp
   ${engines_dir}/engine_method.cpp
   ${engines_dir}/engines.cpp
   ${engines_dir}/extruded.cpp
@@ -27,9 +26,28 @@ endfunction()
 find_package(box2d CONFIG REQUIRED)
 touchstone_engine(box2d box2d.cpp box2d::box2d)
 
-# The build in double precision. The other one has the same symbol names: never both in one process.
+# Bullet in double precision in the library, and in single precision in a server of its own: the two builds have the
+# same symbol names with other layouts, so never both in one process.
 pkg_check_modules(TOUCHSTONE_BULLET REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(TOUCHSTONE_BULLET_FLOAT REQUIRED IMPORTED_TARGET bullet)
 touchstone_engine(bullet bullet.cpp PkgConfig::TOUCHSTONE_BULLET)
+target_sources(touchstone_baselines PRIVATE
+  ${engines_dir}/bullet_float.cpp
+  ${engines_dir}/bullet_world.cpp
+  ${engines_dir}/wire.cpp
+)
+add_executable(touchstone_bullet_float
+  ${engines_dir}/bullet_float_server.cpp
+  ${engines_dir}/bullet_world.cpp
+  ${engines_dir}/principal_axes.cpp
+  ${engines_dir}/read_back.cpp
+  ${engines_dir}/shapes.cpp
+  ${engines_dir}/wire.cpp
+)
+target_link_libraries(touchstone_bullet_float PRIVATE touchstone_core PkgConfig::TOUCHSTONE_BULLET_FLOAT)
+add_dependencies(touchstone_baselines touchstone_bullet_float)
+set_source_files_properties(${engines_dir}/bullet_float.cpp TARGET_DIRECTORY touchstone_baselines
+  PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_BULLET_FLOAT_SERVER="$<TARGET_FILE:touchstone_bullet_float>")
 
 pkg_check_modules(TOUCHSTONE_ODE REQUIRED IMPORTED_TARGET ode)
 touchstone_engine(ode ode.cpp PkgConfig::TOUCHSTONE_ODE)
@@ -84,4 +102,16 @@ if(SICONOS_INCLUDE_DIR AND SICONOS_NUMERICS_LIBRARY AND SUITESPARSE_INCLUDE_DIR)
   target_sources(touchstone_baselines PRIVATE ${engines_dir}/simple_contacts.cpp)
 else()
   message(STATUS "Engine siconos: not installed")
+endif()
+
+find_package(Simbody CONFIG QUIET)
+if(Simbody_FOUND AND TARGET SimTKsimbody)
+  # Its headers do not compile as C++20 (operator== of its index types), so the part that includes them is C++17.
+  add_library(touchstone_simbody OBJECT ${engines_dir}/simbody_world.cpp)
+  set_target_properties(touchstone_simbody PROPERTIES CXX_STANDARD 17)
+  target_link_libraries(touchstone_simbody PRIVATE touchstone_core SimTKsimbody)
+  touchstone_engine(simbody simbody.cpp SimTKsimbody)
+  target_sources(touchstone_baselines PRIVATE $<TARGET_OBJECTS:touchstone_simbody>)
+else()
+  message(STATUS "Engine simbody: not installed")
 endif()

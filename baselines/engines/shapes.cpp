@@ -88,6 +88,27 @@ struct Inflate {
 
 }  // namespace
 
+std::vector<Vector<3>> convex_corners(const Geometry<3>::Variant& geometry) {
+  if (const auto* polytope = std::get_if<Polytope<3>>(&geometry)) return polytope->vertices;
+  std::vector<Vector<3>> corners;
+  if (const auto* box = std::get_if<Box<3>>(&geometry)) {
+    const Vector<3> h = box->half_extents;
+    for (int k = 0; k < 8; ++k) {
+      corners.emplace_back((k & 1) ? h.x() : -h.x(), (k & 2) ? h.y() : -h.y(), (k & 4) ? h.z() : -h.z());
+    }
+  }
+  return corners;
+}
+
+void keep_one_of_each_in_plane(std::vector<Vector<3>>& points) {
+  std::vector<Vector<3>> flat;
+  for (auto point : points) {
+    point.z() = 0;
+    if (std::find(flat.begin(), flat.end(), point) == flat.end()) flat.push_back(point);
+  }
+  points = std::move(flat);
+}
+
 std::vector<std::vector<int>> face_corners(const Polytope<3>& polytope) {
   std::vector<std::vector<int>> faces;
   const double size = size_of(polytope);

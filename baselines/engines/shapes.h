@@ -12,6 +12,12 @@ namespace touchstone::engines {
 /// shape.
 std::vector<Vector<2>> polygon_vertices(const Shape<2>& shape);
 
+/// The corners of a box or a polytope in its own frame; none for any other shape.
+std::vector<Vector<3>> convex_corners(const Geometry<3>::Variant& geometry);
+
+/// Moves the points into z = 0 and keeps one of each: what the corners of a prism are to planar motion.
+void keep_one_of_each_in_plane(std::vector<Vector<3>>& points);
+
 /// For each plane of the polytope the indices of its corners, counter-clockwise seen from outside.
 std::vector<std::vector<int>> face_corners(const Polytope<3>& polytope);
 

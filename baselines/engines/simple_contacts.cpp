@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "baselines/engines/shapes.h"
 #include "core/model/errors.h"
 
 namespace touchstone::engines {
@@ -11,24 +12,6 @@ namespace {
 template <typename T>
 bool holds(const Body<3>& body) {
   return std::holds_alternative<T>(body.shape.geometry);
-}
-
-std::vector<Vector<3>> box_corners(const Vector<3>& h) {
-  std::vector<Vector<3>> corners;
-  for (int k = 0; k < 8; ++k) {
-    corners.emplace_back((k & 1) ? h.x() : -h.x(), (k & 2) ? h.y() : -h.y(), (k & 4) ? h.z() : -h.z());
-  }
-  return corners;
-}
-
-/// Moves the points into z = 0 and keeps one of each.
-void flatten(std::vector<Vector<3>>& points) {
-  std::vector<Vector<3>> flat;
-  for (auto point : points) {
-    point.z() = 0;
-    if (std::find(flat.begin(), flat.end(), point) == flat.end()) flat.push_back(point);
-  }
-  points = std::move(flat);
 }
 
 Pose<3> shape_pose(const Body<3>& body, const Pose<3>& pose) {
@@ -52,9 +35,8 @@ SimpleContacts::SimpleContacts(const Scene<3>& scene, bool planar) : scene_(scen
     if (const auto* s = std::get_if<Capsule>(&geometry)) {
       corners = {{s->half_height * Vector<3>::UnitZ(), -s->half_height * Vector<3>::UnitZ()}, s->radius};
     }
-    if (const auto* s = std::get_if<Box<3>>(&geometry)) corners = {box_corners(s->half_extents), 0.0};
-    if (const auto* s = std::get_if<Polytope<3>>(&geometry)) corners = {s->vertices, 0.0};
-    if (planar) flatten(corners.points);
+    if (corners.points.empty()) corners.points = convex_corners(geometry);
+    if (planar) keep_one_of_each_in_plane(corners.points);
   }
   const int count = static_cast<int>(scene.bodies.size());
   for (int i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@ namespace touchstone {
 struct CandidatePolicy {
   enum class Kind {
     reachable,  ///< every vertex whose linearised gap this step could close, by the bound of reach_bound.h
-    nearest,    ///< the `count` vertices of least gap of each pair; ties to the lower index
+    nearest,    ///< the `count` vertices of least gap of each pair
     epsilon,    ///< every candidate with a gap of at most `distance`
     all         ///< every vertex
   };

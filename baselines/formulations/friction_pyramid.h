@@ -9,8 +9,7 @@
 namespace touchstone {
 
 /// The friction ellipsoid of Eq. 5 as the convex hull of finitely many points  mu p_n E d_j  (Stewart &
-/// Trinkle 1996). Between two directions the bound is lower or higher than the
-/// ellipsoid's.
+/// Trinkle 1996). Between two directions the bound differs from the ellipsoid's.
 template <int Dim>
 struct FrictionPyramid {
   double mu = 0.0;
@@ -24,9 +23,11 @@ struct FrictionPyramid {
 
 /// How the ellipsoid is cut to a pyramid.
 struct PyramidOptions {
-  int sides = 8;  ///< d: directions in the contact plane, even, >= 4; 2 and not read in the plane
-  bool circumscribed = false;  ///< the polygon's edges touch the ellipse (its corners lie 1 / cos(pi / d)
-                               ///< outside) instead of its corners lying on it (its edges cos(pi / d) inside)
+  /// d: directions in the contact plane, even, >= 4. Not read in the plane.
+  int sides = 8;
+  /// The polygon's edges touch the ellipse and its corners lie 1 / cos(pi / d) outside; otherwise its corners
+  /// lie on the ellipse and its edges cos(pi / d) inside.
+  bool circumscribed = false;
 };
 
 /// Reads `pyramid` and `pyramid_fit` (in space; the plane has +-t, which is exact, and no option).
@@ -34,8 +35,8 @@ struct PyramidOptions {
 template <int Dim>
 PyramidOptions read_pyramid_options(OptionReader& read);
 
-/// In the plane: +-e_t. In space: d directions around the contact plane, the first along t, and +-e_r if e_r
-/// > 0.
+/// In the plane: +-e_t. In space: d directions around the contact plane, the first along t, and +-e_r unless
+/// it is 0.
 template <int Dim>
 FrictionPyramid<Dim> friction_pyramid(const ContactLaw<Dim>& law, const PyramidOptions& options);
 

@@ -41,11 +41,11 @@ struct LcpStepData {
   double h = 0.0;                    ///< [s]
 };
 
-/// The linear complementarity problem of one step (Stewart & Trinkle 1996; the paper's Eq. 4 with
-/// W at the start of the step, psi to first order and the friction ellipsoid as a pyramid). Per candidate, of
-/// any number:
-///   0 <= p_n    _|_  psi / h + W_n^T nu'    >= 0 (a) 0 <= beta_j _|_  d_j . W_f^T nu' + sigma >= 0,   j = 1
-///   ... d                                            (b) 0 <= sigma  _|_  mu p_n - sum_j beta_j  >= 0 (c)
+/// The linear complementarity problem of one step (Stewart & Trinkle 1996; the paper's Eq. 4 with W at the
+/// start of the step, psi to first order and the friction ellipsoid as a pyramid). Per candidate:
+///   (a)  0 <= p_n    _|_  psi / h + W_n^T nu'      >= 0
+///   (b)  0 <= beta_j _|_  d_j . W_f^T nu' + sigma  >= 0,   j = 1 ... d
+///   (c)  0 <= sigma  _|_  mu p_n - sum_j beta_j    >= 0
 /// with  nu' = nu_f + sum M^-1 (W_n p_n + W_f sum_j d_j beta_j)  put in. A frictionless contact is (a) alone.
 ///
 /// Few of many candidates touch, so their rows are generated: Lemke's method solves the problem of a working
@@ -75,8 +75,8 @@ class LcpStep final : private ColumnSource {
   struct Report {
     LinearPathStatus status = LinearPathStatus::solved;
     int pivots = 0;  ///< of all rounds
-    double residual =
-        0.0;  ///< max |min(z, w)| over the rows of the working set, w at nu', scaled as described
+    /// max |min(z, w)| over the rows of the working set, w at nu', scaled as described above.
+    double residual = 0.0;
   };
 
   /// Makes room for so many candidates at once.

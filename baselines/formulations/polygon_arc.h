@@ -8,16 +8,14 @@
 /// vertices.
 namespace touchstone {
 
-/// Consecutive vertices of a polygon with `edges` edges: first, first + 1, ..., modulo edges; 0 <= first <
-/// edges.
+/// Consecutive vertices of a polygon of N edges: first, first + 1, ... modulo N; 0 <= first < N.
 struct VertexArc {
   int first = 0;
   int count = 0;
 };
 
 /// The circumscribed circle of a polygon in the world, with the turn of its vertices.
-/// A point of the circle at angle a is  center + R (sin a, -cos a);  vertex k is at  a = turn + 2 pi k /
-/// edges.
+/// The point of the circle at angle a is  center + R (sin a, -cos a);  vertex k has  a = turn + 2 pi k / N.
 struct PlacedPolygon {
   int edges = 3;
   double circumradius = 1.0;

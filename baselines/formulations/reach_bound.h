@@ -16,25 +16,25 @@ struct PlaneBelow {
 
 /// What is known of the velocity nu' of a body that touches fixed half-spaces only BEFORE its step is solved,
 /// and hence which vertices the step cannot bring down. Holds for every solution of the Stewart-Trinkle
-/// problem with ALL vertices.
+/// problem with all vertices, and with any part of them.
 ///
-/// Theorem. Let u be a velocity with  psi_v / h + n_v . u_v - friction |u_t,v| >= 0  at every vertex v (u_v
-/// its velocity there, u_t,v the part along the plane). Then nu' lies in the ball, in the norm |x|_M^2 = x^T
-/// M x, of which u and the contact-free velocity nu_f are opposite ends. Proof. With p_v the impulse at v, M
-/// (nu' - nu_f) = sum W_v p_v. Complementarity says  p_n (psi / h + n . v') = 0, and maximum dissipation  p_f
-/// . v_t' <= 0, so
-///   (nu' - u)^T M (nu' - nu_f) = sum p_n (-psi / h) + p_f . v_t' - p_n n . u_v - p_f . u_t,v
-///                             <= sum -p_n (psi / h + n . u_v - friction |u_t,v|) <= 0,
-/// which is Thales' ball: every point that sees the diameter from u to nu_f under a right angle or more.   []
+/// Theorem. Let u be a velocity such that at every vertex v, with u_v the velocity that u gives to it and
+/// u_t,v its part along the plane,
+///   psi_v / h + n_v . u_v - friction |u_t,v| >= 0.
+/// Then nu' lies in the ball, in the norm |x|_M^2 = x^T M x, that has u and the contact-free velocity nu_f as
+/// opposite ends.
+///
+/// Proof. With p_v the impulse at v,  M (nu' - nu_f) = sum W_v p_v.  By complementarity
+/// p_n (psi / h + n . v') = 0,  and by maximum dissipation  p_f . v_t' <= 0.  So
+///   (nu' - u)^T M (nu' - nu_f) = sum -p_n psi / h + p_f . v_t' - p_n n . u_v - p_f . u_t,v
+///                             <= sum -p_n (psi / h + n . u_v - friction |u_t,v|)
+///                             <= 0,
+/// which is Thales' ball: the points that see its diameter under a right angle or more. []
 ///
 /// Here u is the translation that lifts the body out of what it has penetrated: zero if nothing is
-/// penetrated; with one half-space it always fits, with several it is tried and known() tells. With one
-/// half-space, moreover, n . v' >= n . v_f at the centre of mass, because normal impulses only push and
-/// friction is perpendicular to n.
-///
-/// The premise stays true, and so do the bounds, if every gap is enlarged by the same amount: it covers not
-/// only the solution but the whole path of LcpStep::solve(), along which the half-spaces rise from below to
-/// their places.
+/// penetrated, and then |nu'|_M <= |nu_f|_M, the bound by energy, is part of it. With one half-space u always
+/// fits; with several it is tried, and known() tells. With one half-space, moreover,  n . v' >= n . v_f  at
+/// the centre of mass, because normal impulses only push and friction is perpendicular to n.
 template <int Dim>
 class ReachBound {
  public:

@@ -45,7 +45,8 @@ void free_flight(const Subject<Dim>& subject) {
   Scene<Dim> scene = alone(ball<Dim>("ball", 20 * up<Dim>()));
   scene.gravity = -kGravity * up<Dim>() + 2.0 * Vector<Dim>::Unit(0);
   scene.bodies[0].mass = 3.0;
-  for (int i = 0; i < Dim; ++i) scene.bodies[0].velocity[i] = 1.0 + i;
+  // With spin, because an integrator of twists in the body frame would bend the path.
+  for (int i = 0; i < Dimension<Dim>::velocity; ++i) scene.bodies[0].velocity[i] = 1.0 + i;
   expect_flight<Dim>(subject, scene, scene.gravity);
 }
 
@@ -108,7 +109,7 @@ Vector<3> euler_rates(const Inertia<3>& inertia, Vector<3> w, double time) {
 /// about wrong axes or omega in the wrong frame the rates are off by their own size; first-order integrators
 /// by h.
 void free_rotation(const Subject<3>& subject) {
-  constexpr double kFineStep = 1e-4;
+  constexpr double kFineStep = 1e-3;
   Body<3> body = ball<3>("box", 20 * up<3>());
   const Matrix<3> axes = SpatialRotation(Eigen::Quaterniond(0.9, 0.1, 0.3, -0.2)).matrix();
   body.inertia = axes * (Vector<3>(97, 82, 17) / 12).asDiagonal() * axes.transpose();
@@ -116,7 +117,7 @@ void free_rotation(const Subject<3>& subject) {
   const Vector<3> rates(1.0, 2.0, -0.5);
   body.velocity.tail<3>() = body.pose.rotation.matrix() * rates;
   const auto method = subject.entry.make(alone(body), {});
-  advance(*method, kFineStep, 10000);
+  advance(*method, kFineStep, 1000);
   const auto& state = method->state()[0];
   const Vector<3> found = state.pose.rotation.matrix().transpose() * state.velocity.tail<3>();
   const Vector<3> expected = euler_rates(body.inertia, rates, 1.0);
@@ -132,7 +133,7 @@ void no_damping_no_sleep(const Subject<Dim>& subject) {
   const auto method = subject.entry.make(alone(body), {});
   advance(*method, kStep, 500);
   const auto& state = method->state()[0];
-  EXPECT_LE((state.velocity - body.velocity).norm(), subject.traits.rounding * 1e-2 + 1e-15);
+  EXPECT_LE((state.velocity - body.velocity).norm(), 0.1 * subject.traits.rounding);
   EXPECT_NEAR(state.pose.position[0], 5e-3, 1e-4);
 }
 

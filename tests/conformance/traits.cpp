@@ -24,6 +24,15 @@ constexpr auto kRows = std::to_array<Row>({
       .impulse = 1e-4}},
     // Rolls on its skin, which makes the radius 2.5e-6 longer.
     {"chipmunk", {.free_flight = FreeFlight::position_first, .contact_speed = 1e-5, .settling_speed = 1e-4}},
+    {"bullet_si_float",
+     {.rounding = 2e-6,
+      .contact_speed = 2e-4,
+      .slip_speed = 4e-4,
+      .contact_depth = 1e-4,
+      .flat_speed = 1e-3,
+      .flat_depth = 1e-3,
+      .settling_speed = 0.1,
+      .impulse = 1e-4}},
     {"bullet", {.flat_speed = 2e-4, .flat_depth = 1e-3, .settling_speed = 0.1}},
     // Soft contacts: a resting body sinks by up to a millimetre, and a slipping one hops, because MuJoCo's
     // convex

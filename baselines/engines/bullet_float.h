@@ -1,0 +1,13 @@
+#pragma once
+
+#include "baselines/engines/bullet_world.h"
+
+namespace touchstone::engines {
+
+/// The world of Bullet's single-precision build, in a server process that ends with it. A server that dies
+/// throws from the call under way.
+/// @throws Unsupported as make_bullet_world does, std::system_error if the server cannot be started
+std::unique_ptr<Engine<3>> make_bullet_float_process(const Scene<3>& scene, const BulletSettings& settings,
+                                                     Motion motion);
+
+}  // namespace touchstone::engines
