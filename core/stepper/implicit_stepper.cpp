@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/contact/closest_points.h"
 #include "core/model/errors.h"
 
 namespace touchstone {
@@ -129,10 +128,11 @@ void ImplicitStepper<Dim>::collect_candidates() {
   }
   warm_start_.match(active_contacts_);
   solved_contacts_.resize(active_contacts_.size());
+  contacts_.reserve(active_contacts_.size());
 }
 
-/// Warm start first, condensed if allowed; then the full problem from cold, where closest points are those of
-/// the predicted pose; then the other solver.
+/// The solver asked for, and then the full problem's others; each from the warm start and then from cold,
+/// where closest points are those of the predicted pose.
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
@@ -142,18 +142,23 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
     if (report.solved() || problem_.size() > kLargestDense) return report;
+    ++fallbacks_;
     iterations += report.iterations;
   }
-  const Solver first = options_.solver == Solver::semismooth ? Solver::semismooth : Solver::path;
+  const Solver first = options_.solver == Solver::path ? Solver::path : Solver::semismooth;
   const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
-  start_from_memory();
-  report = run_solver(first);
-  iterations += report.iterations;
   for (const Solver solver : {first, other}) {
+    for (const bool warm : {true, false}) {
+      if (warm) {
+        start_from_memory();
+      } else {
+        start_cold();
+      }
+      report = run_solver(solver);
+      iterations += report.iterations;
+      if (report.solved()) break;
+    }
     if (report.solved()) break;
-    start_cold();
-    report = run_solver(solver);
-    iterations += report.iterations;
   }
   report.iterations = iterations;
   return report;
@@ -188,12 +193,11 @@ void ImplicitStepper<Dim>::start_from_memory() {
   } else {
     problem_.free_velocity(z_);
   }
-  problem_.advance(z_, end_);
   for (std::size_t i = 0; i < island_.size(); ++i) {
     if (warm_start_.knows(island_[i])) {
       recall(i, depth);
     } else {
-      find_points(i);
+      problem_.find_points(i, z_);
     }
   }
 }
@@ -202,8 +206,7 @@ template <int Dim>
 void ImplicitStepper<Dim>::start_cold() {
   z_.head(problem_.size()).setZero();
   problem_.free_velocity(z_);
-  problem_.advance(z_, end_);
-  for (std::size_t i = 0; i < island_contacts_.size(); ++i) find_points(i);
+  for (std::size_t i = 0; i < island_contacts_.size(); ++i) problem_.find_points(i, z_);
 }
 
 template <int Dim>
@@ -217,20 +220,6 @@ void ImplicitStepper<Dim>::recall(std::size_t i, int depth) {
   z_[at.normal] = memory.p;
   z_[at.slip] = memory.s;
   std::copy(memory.multipliers.begin(), memory.multipliers.end(), z_.data() + at.multipliers_1);
-}
-
-template <int Dim>
-void ImplicitStepper<Dim>::find_points(std::size_t i) {
-  const ContactPair<Dim>& contact = island_contacts_[i];
-  const auto closest =
-      closest_points(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
-                     *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
-  const Vector<Dim>& origin = problem_.prepared(i).origin;
-  const Vector<Dim> a_1 = closest.a_1 - origin;
-  const Vector<Dim> a_2 = closest.a_2 - origin;
-  problem_.set_normal_estimate(i, closest.normal);
-  problem_.set_points(i, a_1, a_2, z_);
-  problem_.set_multipliers(i, a_1, a_2, closest.normal, z_);
 }
 
 /// What the current island's solution says of the end of the step.

@@ -15,7 +15,7 @@ namespace touchstone {
 struct ImplicitOptions {
   enum class Solver {
     condensed,   ///< closest points eliminated (condensed_newton.h); the other two where that fails
-    path,        ///< the full mixed problem by path-following Newton; from cold; then the other one
+    path,        ///< the full mixed problem by path-following Newton; the other one where that fails
     semismooth,  ///< likewise by semismooth Newton
   };
 
@@ -47,6 +47,8 @@ class ImplicitStepper final : public Method<Dim> {
 
   /// The problem of the last step's last island and its solution, for certificates and tests.
   [[nodiscard]] const StepProblem<Dim>& problem() const { return problem_; }
+  /// How many islands so far elimination left to the full problem's solvers.
+  [[nodiscard]] int fallbacks() const { return fallbacks_; }
   [[nodiscard]] Eigen::VectorXd solution() const { return z_.head(problem_.size()); }
 
  private:
@@ -56,7 +58,6 @@ class ImplicitStepper final : public Method<Dim> {
   void start_from_memory();
   void start_cold();
   void recall(std::size_t i, int depth);
-  void find_points(std::size_t i);
   [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
@@ -70,6 +71,7 @@ class ImplicitStepper final : public Method<Dim> {
   Islands islands_;
   StepProblem<Dim> problem_;
   CondensedNewton<Dim> condensed_;
+  int fallbacks_ = 0;
   PathNewton path_;
   SemismoothNewton semismooth_;
   WarmStart<Dim> warm_start_;

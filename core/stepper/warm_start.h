@@ -34,7 +34,7 @@ class WarmStart {
   void match(std::span<const ContactPair<Dim>> contacts);
   [[nodiscard]] bool knows(std::size_t contact) const { return known_[contact] != nullptr; }
   /// How many last steps, at most kDepth, all of these bodies and contacts have gone through without a
-  /// contact that closed or opened.
+  /// contact that closed or opened; 1 if nothing changes.
   [[nodiscard]] int depth(std::span<const int> bodies, std::span<const std::size_t> contacts) const;
 
   /// Extrapolated through `depth` >= 1 last steps.
@@ -56,6 +56,7 @@ class WarmStart {
   };
   struct VelocityTrace {
     int count = 0;
+    bool steady = false;  ///< the last two are the same but for rounding
     std::array<Twist<Dim>, kDepth> last{};
   };
 

@@ -32,7 +32,8 @@ TEST(Allocation, TheCounterCounts) {
 
 TEST(Allocation, APlanarStepMakesNone) {
   if (!kAllocationsAreCounted) GTEST_SKIP() << "the sanitizer owns malloc";
-  for (const auto solver : {ImplicitOptions::Solver::path, ImplicitOptions::Solver::semismooth}) {
+  using Solver = ImplicitOptions::Solver;
+  for (const auto solver : {Solver::condensed, Solver::path, Solver::semismooth}) {
     ImplicitStepper<2> stepper(sliding_disc(), {.solver = solver});
     ASSERT_EQ(stepper.step(0.01).status, StepStatus::solved);
     int iterations = 0;
