@@ -42,7 +42,7 @@ TEST(Allocation, APlanarStepMakesNone) {
       iterations += stepper.step(0.01).iterations;
       EXPECT_EQ(allocations, before) << "step " << k;
     }
-    EXPECT_GT(iterations, 20);
+    EXPECT_GT(iterations, 5);  // extrapolation starts most steps at their solutions
   }
 }
 
