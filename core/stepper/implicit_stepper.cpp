@@ -57,16 +57,11 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
       path_(path_options(options)),
       semismooth_(semismooth_options(options)) {
   problem_.set_gap(options.gap);
-  const auto pairs = candidates_.pairs();
-  memory_.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ContactPair<Dim>& contact = pairs[i].contact;
-    memory_[i].multipliers.resize(
-        static_cast<std::size_t>(contact.side_1.multipliers() + contact.side_2.multipliers()));
-  }
-  active_.reserve(pairs.size());
-  active_contacts_.reserve(pairs.size());
-  contacts_.reserve(pairs.size());
+  const std::size_t known = candidates_.pairs().size();
+  memory_.reserve(known);
+  active_.reserve(known);
+  active_contacts_.reserve(known);
+  contacts_.reserve(known);
   joints_.resize(scene_.joints.size());
   joint_memory_.setZero(problem_.joint_row_count());
 }
@@ -90,16 +85,20 @@ StepReport ImplicitStepper<Dim>::step(double h) {
 
 template <int Dim>
 void ImplicitStepper<Dim>::collect_candidates() {
+  const auto pairs = candidates_.pairs();
+  for (std::size_t i = memory_.size(); i < pairs.size(); ++i) {
+    const ContactPair<Dim>& contact = pairs[i].contact;
+    memory_.emplace_back().multipliers.resize(
+        static_cast<std::size_t>(contact.side_1.multipliers() + contact.side_2.multipliers()));
+  }
+  for (const std::size_t i : active_) {
+    if (!pairs[i].selected) memory_[i].valid = false;
+  }
   active_.clear();
   active_contacts_.clear();
-  const auto pairs = candidates_.pairs();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i].selected) {
-      active_.push_back(i);
-      active_contacts_.push_back(pairs[i].contact);
-    } else {
-      memory_[i].valid = false;
-    }
+  for (const int i : candidates_.selected()) {
+    active_.push_back(static_cast<std::size_t>(i));
+    active_contacts_.push_back(pairs[active_.back()].contact);
   }
 }
 

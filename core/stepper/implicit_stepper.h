@@ -72,7 +72,7 @@ class ImplicitStepper final : public Method<Dim> {
   StepProblem<Dim> problem_;
   PathNewton path_;
   SemismoothNewton semismooth_;
-  std::vector<Memory> memory_;       ///< one a pair
+  std::vector<Memory> memory_;       ///< one a pair of candidates_
   std::vector<std::size_t> active_;  ///< pairs of this step, in the order of active_contacts_
   std::vector<ContactPair<Dim>> active_contacts_;
   Eigen::VectorXd z_;
