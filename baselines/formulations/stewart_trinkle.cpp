@@ -119,7 +119,7 @@ class StewartTrinkle final : public Method<Dim> {
     const auto most = static_cast<std::size_t>(geometry_.candidate_count());
     candidates_.reserve(most);
     contacts_.reserve(most);
-    lcp_.reserve(static_cast<int>(most));
+    lcp_.reserve(static_cast<int>(most), pyramids_);
   }
   StewartTrinkle(const StewartTrinkle&) = delete;  // geometry_ refers to scene_
   StewartTrinkle& operator=(const StewartTrinkle&) = delete;
