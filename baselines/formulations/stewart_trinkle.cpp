@@ -119,7 +119,7 @@ class StewartTrinkle final : public Method<Dim> {
     const auto most = static_cast<std::size_t>(geometry_.candidate_count());
     candidates_.reserve(most);
     contacts_.reserve(most);
-    lcp_.reserve(static_cast<int>(most));
+    lcp_.reserve(static_cast<int>(most), pyramids_);
   }
   StewartTrinkle(const StewartTrinkle&) = delete;  // geometry_ refers to scene_
   StewartTrinkle& operator=(const StewartTrinkle&) = delete;
@@ -139,6 +139,9 @@ class StewartTrinkle final : public Method<Dim> {
     if (!(h > 0) || !std::isfinite(h)) throw InputError("step size h", h, "a finite number > 0 [s]");
     predict_free_velocities(h);
     selection_.select(state_, free_, h, candidates_);
+    const bool known = std::all_of(candidates_.begin(), candidates_.end(),
+                                   [](const auto& candidate) { return candidate.points.exact; });
+    if (!known) return {StepStatus::not_converged, 0, 0.0, "closest points of two bodies were not found"};
     const auto solution = lcp_.solve(data(h), candidates_, next_);
     const StepReport report = judge(solution);
     if (report.status != StepStatus::solved) return report;

@@ -123,9 +123,8 @@ void ImplicitStepper<Dim>::select_island(const Islands::Island& island) {
 template <int Dim>
 void ImplicitStepper<Dim>::collect_candidates() {
   active_contacts_.clear();
-  for (const auto& pair : candidates_.pairs()) {
-    if (pair.selected) active_contacts_.push_back(pair.contact);
-  }
+  for (const int pair : candidates_.selected())
+    active_contacts_.push_back(candidates_.pairs()[static_cast<std::size_t>(pair)].contact);
   warm_start_.match(active_contacts_);
   solved_contacts_.resize(active_contacts_.size());
   contacts_.reserve(active_contacts_.size());

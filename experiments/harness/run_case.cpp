@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/model/errors.h"
 #include "experiments/harness/interrupt.h"
@@ -29,8 +30,15 @@ bool is_finite(std::span<const BodyState<Dim>> state) {
 }
 
 void raise(double& largest, double value) {
-  // Not std::max, which would drop a NaN.
-  if (!(value <= largest)) largest = value;
+  // Not std::max, which would drop a NaN; and once there it stays.
+  if (!std::isnan(largest) && !(value <= largest)) largest = value;
+}
+
+void raise(EstimatedError& largest, const EstimatedError& error) {
+  raise(largest.position_m, error.position_m);
+  raise(largest.turn_rad, error.turn_rad);
+  raise(largest.velocity_m_s, error.velocity_m_s);
+  raise(largest.angular_velocity_rad_s, error.angular_velocity_rad_s);
 }
 
 /// Runs a case and keeps its account.
@@ -46,6 +54,10 @@ class Runner {
     run_.samples.reserve(static_cast<std::size_t>(steps_ / every_ + 2));
     for (const double t : options.report) report_steps_.push_back(multiple_of(t, options.h));
     run_.reported.resize(options.report.size());
+    if (!method.capabilities().one_run) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      run_.residual = {none, none, none, none, none};
+    }
   }
 
   CaseRun<Dim> run() {
@@ -56,7 +68,8 @@ class Runner {
       const StepReport report = method_.step(options_.h);
       run_.iterations += report.iterations;
       if (!accept(report, k)) break;
-      judge_step();
+      if (method_.capabilities().one_run) judge_step();
+      note_estimate();
       observe(k);
     }
     run_.end.assign(method_.state().begin(), method_.state().end());
@@ -98,6 +111,15 @@ class Runner {
     raise(run_.residual.joints, r.joints);
   }
 
+  void note_estimate() {
+    const auto errors = method_.error_estimate();
+    if (errors.empty()) return;
+    run_.estimated_end.emplace();
+    for (const auto& error : errors) raise(*run_.estimated_end, estimated_error(error));
+    if (!run_.estimated_largest) run_.estimated_largest.emplace();
+    raise(*run_.estimated_largest, *run_.estimated_end);
+  }
+
   /// Energy and penetration after step k, and what is to be kept of them.
   void observe(long k) {
     const Energy now = judge_.energy(method_.state());
@@ -133,10 +155,18 @@ long step_count(double until, double h) {
 }
 
 template <int Dim>
+EstimatedError estimated_error(const StateError<Dim>& error) {
+  return {error.position.norm(), error.turn.norm(), error.velocity.template head<Dim>().norm(),
+          error.velocity.template tail<Dimension<Dim>::angular>().norm()};
+}
+
+template <int Dim>
 CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options) {
   return Runner<Dim>(method, options).run();
 }
 
+template EstimatedError estimated_error(const StateError<2>&);
+template EstimatedError estimated_error(const StateError<3>&);
 template CaseRun<2> run_case(Method<2>&, const RunOptions&);
 template CaseRun<3> run_case(Method<3>&, const RunOptions&);
 

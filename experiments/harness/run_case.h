@@ -31,6 +31,18 @@ struct Sample {
   Energy energy;
 };
 
+/// How far a method takes its state to be off, as lengths of the errors of position, turn, velocity and
+/// angular velocity.
+struct EstimatedError {
+  double position_m = 0.0;
+  double turn_rad = 0.0;
+  double velocity_m_s = 0.0;
+  double angular_velocity_rad_s = 0.0;
+};
+
+template <int Dim>
+EstimatedError estimated_error(const StateError<Dim>& error);
+
 template <int Dim>
 struct CaseRun {
   CaseStatus status = CaseStatus::ok;
@@ -43,10 +55,16 @@ struct CaseRun {
   Energy final;
   double largest_drift_J = 0.0;      ///< of |E(t_k) - E(0)| over all steps
   double largest_penetration = 0.0;  ///< over all steps, t = 0 included [m]
-  StepResidual residual;             ///< each part's largest over all steps
-  long steps = 0;                    ///< that were solved
-  long iterations = 0;               ///< as the method tells, over all steps
-  int failed_steps = 0;              ///< 0 or 1: a failed step ends the case
+  /// Each part's largest over all steps; NaN if the method's states are not steps of one run
+  /// (Capabilities::one_run), for which no residual of a step is defined.
+  StepResidual residual;
+  /// The method's own estimate, the largest of any body: after the last step, and over all steps. None from a
+  /// method without one.
+  std::optional<EstimatedError> estimated_end;
+  std::optional<EstimatedError> estimated_largest;
+  long steps = 0;        ///< that were solved
+  long iterations = 0;   ///< as the method tells, over all steps
+  int failed_steps = 0;  ///< 0 or 1: a failed step ends the case
 };
 
 /// Steps `method` from its initial state. A step that is not solved ends the case: the state is as it was

@@ -46,5 +46,30 @@ TEST(Allocation, APlanarStepMakesNone) {
   }
 }
 
+TEST(Allocation, FindingPairsMakesNoneOnceTheyWereMet) {
+  if (!kAllocationsAreCounted) GTEST_SKIP() << "the sanitizer owns malloc";
+  Scene<3> scene;
+  for (int i = 0; i < 200; ++i) {
+    Body<3>& body = scene.bodies.emplace_back();
+    body.pose.position = {1.9 * (i % 20), 1.9 * (i / 20), 0};
+    body.shape.geometry = Sphere<3>{1.0};
+  }
+  ContactCandidates<3> candidates(scene);
+  const auto together = initial_state(scene);
+  auto apart = together;
+  for (auto& state : apart) state.pose.position *= 2;
+  candidates.select(together, 0.01);
+  const std::size_t met = candidates.selected().size();
+  const long before = allocations;
+  for (int k = 0; k < 10; ++k) {
+    candidates.select(apart, 0.01);
+    EXPECT_FALSE(candidates.add_overlapping(apart));
+    EXPECT_TRUE(candidates.add_overlapping(together));
+    EXPECT_EQ(candidates.selected().size(), met);
+    candidates.select(together, 0.01);
+  }
+  EXPECT_EQ(allocations, before);
+}
+
 }  // namespace
 }  // namespace touchstone
