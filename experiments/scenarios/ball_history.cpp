@@ -85,10 +85,18 @@ std::size_t first_step(const BallHistory& history) {
   return static_cast<std::size_t>(at - history.begin());
 }
 
-/// |nu_k - nu_(k-1)|, the largest component; 0 beyond the ends.
-double change(const BallHistory& history, std::size_t k) {
-  if (k == 0 || k >= history.size()) return 0.0;
-  return (history[k].velocity - history[k - 1].velocity).cwiseAbs().maxCoeff();
+/// By how much the change of velocity in step k lies outside those of the steps beside it, component by
+/// component, over the largest of the latter; none at the ends.
+std::optional<double> jump(const BallHistory& history, std::size_t k) {
+  if (k < 2 || k + 1 >= history.size()) return std::nullopt;
+  const Twist<3> before = history[k - 1].velocity - history[k - 2].velocity;
+  const Twist<3> change = history[k].velocity - history[k - 1].velocity;
+  const Twist<3> after = history[k + 1].velocity - history[k].velocity;
+  const Twist<3> above = change - before.cwiseMax(after);
+  const Twist<3> below = before.cwiseMin(after) - change;
+  const double largest = std::max(before.cwiseAbs().maxCoeff(), after.cwiseAbs().maxCoeff());
+  return largest > 0.0 ? std::optional(std::max(0.0, above.cwiseMax(below).maxCoeff()) / largest)
+                       : std::nullopt;
 }
 
 }  // namespace
@@ -193,9 +201,9 @@ BallLaws ball_laws(const BallHistory& history, double h) {
       }
       const bool separates =
           history[k - 1].contacts && (*history[k - 1].contacts)[i].mode != BallContactMode::apart;
-      const double beside = std::max(change(history, k - 1), change(history, k + 1));
-      if (separates && beside > 0.0) {
-        laws.separation_jump = std::max(laws.separation_jump.value_or(0.0), change(history, k) / beside);
+      if (!separates) continue;
+      if (const auto found = jump(history, k)) {
+        laws.separation_jump = std::max(laws.separation_jump.value_or(0.0), *found);
       }
     }
   }

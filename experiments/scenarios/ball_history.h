@@ -61,9 +61,9 @@ struct BallLaws {
   double rolling_slip = 0.0;
   /// | |E^-1 p_f| - mu p_n | of contacts with sigma above 1e-6 m/s [N s]: it must be on the ellipsoid.
   double sliding_friction_gap = 0.0;
-  /// Change of velocity in a step in which a contact separates, over the larger one of the two steps beside
-  /// it; none if none separates. About 1 where forces fall to zero, much more where a contact lets go with a
-  /// jump.
+  /// Where a contact separates: by how much any of the six velocities changes more or less than in both of
+  /// the steps beside it, over the largest change there; none if none separates. 0 where accelerations pass
+  /// from one value to the next, of the order of h where they bend, and not small where a velocity jumps.
   std::optional<double> separation_jump;
 };
 BallLaws ball_laws(const BallHistory& history, double h);
