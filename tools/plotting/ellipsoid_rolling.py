@@ -46,9 +46,9 @@ def errors(directory):
          "ellipsoid_spinning": {1: (0.12, "below"), 2: (0.12, "below")},
          "ellipsoid_on_ellipsoid": {1: (1.2, "above"), 2: (0.3, "below")}},
         "First order either way; which step is nearer depends on the motion",
-        "Velocity errors at t = 0.5, 1, 1.5 and 2 s against the rolling ODE. Geometry frozen at the start of the step is nearer "
-        "for a body that rocks, where it\nbehaves as symplectic Euler and the implicit step as implicit Euler; it is worse where "
-        "the body spins fast above its contact.")
+        "Velocity errors at t = 0.5, 1, 1.5 and 2 s against the rolling ODE. Geometry frozen at the start of the step is "
+        "nearer for a body that rocks, where it\nbehaves as symplectic Euler and the implicit step as implicit Euler; it "
+        "is worse where the body spins fast above its contact.")
 
 
 def energy_drift(directory):

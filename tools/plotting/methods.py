@@ -54,8 +54,8 @@ def order_guides(axes, steps, anchors):
         axes.plot([low, high], [value * (low / high) ** order, value], color="#9A9A9A", linewidth=1.0,
                   linestyle=(0, (2, 2)), zorder=1)
         above = side == "above"
-        axes.annotate(f"order {order}", (middle, value * (middle / high) ** order), xytext=(-4, 3) if above else (5, -3),
-                      textcoords="offset points", fontsize=style.LABEL_POINTS, color="#5A5A5A",
+        axes.annotate(f"order {order}", (middle, value * (middle / high) ** order),
+                      xytext=(-4, 3) if above else (5, -3), textcoords="offset points", fontsize=style.LABEL_POINTS, color="#5A5A5A",
                       ha="right" if above else "left", va="bottom" if above else "top")
 
 

@@ -57,7 +57,8 @@ def figure_6(directory):
     figure, [[left, right]] = style.new_figure(10.0, 5.0, panels=2)
     figure.subplots_adjust(left=0.065, right=0.985, bottom=0.11, top=0.80, wspace=0.2)
     for axes, columns, symbol in ((left, VELOCITIES[:3], "v"), (right, VELOCITIES[3:], r"\omega")):
-        for column, letter, colour, dash in zip(columns, "xyz", (style.BLUE, style.VERMILION, style.GREEN), style.DASHES):
+        colours = (style.BLUE, style.VERMILION, style.GREEN)
+        for column, letter, colour, dash in zip(columns, "xyz", colours, style.DASHES):
             axes.plot(truth.numbers("t_s"), truth.numbers(column), color=colour, linewidth=4.5, alpha=0.3)
             axes.plot(ncp.numbers("t_s"), ncp.numbers(column), color=colour, linestyle=dash,
                       label=f"${symbol}_{letter}$")
@@ -68,8 +69,8 @@ def figure_6(directory):
     left.set_ylabel("velocity of the centre [m/s]")
     right.set_ylabel("angular velocity [rad/s]")
     style.headline(figure, "Smooth velocities through rolling, sliding and both separations",
-                   "Example 3, Fig. 6 of the paper: a ball on two balls, h = 0.01 s. Lines: implicit NCP; broad pale bands: the "
-                   "event-driven truth.\nNothing jumps where a contact lets go. Its contacts: "
+                   "Example 3, Fig. 6 of the paper: a ball on two balls, h = 0.01 s. Lines: implicit NCP; broad pale bands: "
+                   "the event-driven truth.\nNothing jumps where a contact lets go. Its contacts: "
                    f"{legend_of_events(events)}.")
     return figure
 
@@ -89,7 +90,7 @@ def shade_modes(axes, rows, contact):
             start = times[i]
 
 
-def contact_figure(directory, contact, title, text):
+def contact_figure(directory, contact, number, title):
     ncp, truth = reference(read_trajectories(directory))
     mode, normal, friction, slip = contact_columns(contact)
     figure, [[left, right]] = style.new_figure(10.0, 4.8, panels=2)
@@ -112,22 +113,21 @@ def contact_figure(directory, contact, title, text):
     left.set_ylabel("force [N]")
     right.set_ylabel("sliding speed [m/s]")
     left.legend(frameon=False, loc="lower left")
-    style.headline(figure, title, text)
+    style.headline(figure, title,
+                   f"Example 3, Fig. {number} of the paper, h = 0.01 s. Lines: implicit NCP, shaded by the mode that its "
+                   "impulses tell; broad pale bands: the\nevent-driven truth. Friction is compared in the norm of the "
+                   "ellipsoid, torsion included.")
     return figure
 
 
 def figure_7(directory):
     return contact_figure(
-        directory, 1, "Contact 1 slides from the start: friction lies on its limit until the ball lets go",
-        "Example 3, Fig. 7 of the paper, h = 0.01 s. Lines: implicit NCP, shaded by the mode that its impulses tell; broad pale "
-        "bands: the event-driven\ntruth. Friction is compared in the norm of the ellipsoid, torsion included.")
+        directory, 1, 7, "Contact 1 slides from the start: friction lies on its limit until the ball lets go")
 
 
 def figure_8(directory):
     return contact_figure(
-        directory, 2, "Contact 2 rolls without any slip until its friction reaches the limit, and slides from there",
-        "Example 3, Fig. 8 of the paper, h = 0.01 s. Lines: implicit NCP, shaded by the mode that its impulses tell; broad pale "
-        "bands: the event-driven\ntruth. Friction is compared in the norm of the ellipsoid, torsion included.")
+        directory, 2, 8, "Contact 2 rolls without any slip until its friction reaches the limit, and slides from there")
 
 
 def errors(directory):
@@ -148,8 +148,8 @@ def errors(directory):
     axes.set_ylim(5e-4, 5)
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=style.LABEL_POINTS)
     style.headline(figure, "Smaller steps help only a method that has the laws of the problem right",
-                   "Example 3 against the event-driven truth. The implicit NCP is of first order. Friction boxes, pyramids and "
-                   "soft contacts\nsolve another problem, which no step size brings nearer.")
+                   "Example 3 against the event-driven truth. The implicit NCP is of first order. Friction boxes, pyramids "
+                   "and soft contacts\nsolve another problem, which no step size brings nearer.")
     return figure
 
 
@@ -175,7 +175,7 @@ def deviations(directory):
     axes.set_ylabel("largest velocity error [m/s, rad/s]")
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=style.LABEL_POINTS)
     style.headline(figure, "Where each method leaves the true motion",
-                   "Example 3 at h = 0.01 s, the largest of the six velocity errors over time. Soft contacts sink and hop from "
-                   "the start;\nthe others depart as friction first turns the ball. The truth's contacts: "
+                   "Example 3 at h = 0.01 s, the largest of the six velocity errors over time. Soft contacts sink and hop "
+                   "from the start;\nthe others depart as friction first turns the ball. The truth's contacts: "
                    f"{legend_of_events(events)}.")
     return figure

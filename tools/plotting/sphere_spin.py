@@ -41,9 +41,9 @@ def figure_3(directory):
         axes.set_xlim(0, max(ncp.numbers("t_s")))
         axes.set_xlabel("time t [s]")
     style.headline(figure, "Torsional friction stops the sphere at 1 s, and a step of 0.07 s says so at 1.05 s",
-                   "Example 2, Fig. 3 of the paper, h = 0.07 s. Left: the spin falls by 1.962 h a step, the last one to "
-                   "exactly zero. Right: every method\nthat has torsional friction. Soft contacts sink first, and push and "
-                   "brake by turns; the others give the discrete truth.")
+                   "Example 2, Fig. 3 of the paper, h = 0.07 s. Left: the spin falls by 1.962 h a step, the last one "
+                   "to exactly zero. Right: every method\nthat has torsional friction. Soft contacts sink first, and push "
+                   "and brake by turns; the others give the discrete truth.")
     return figure
 
 
@@ -64,8 +64,8 @@ def figure_4(directory):
     figure, [[axes]] = style.new_figure(7.6, 4.5)
     figure.subplots_adjust(left=0.1, right=0.975, bottom=0.115, top=0.79)
     times, moments = ncp.numbers("t_s")[1:], ncp.numbers("torsion_Nm")[1:]  # nothing has acted yet at t = 0
-    axes.plot(truth.numbers("t_s"), truth.numbers("torsion_Nm"), color=style.ORANGE, linewidth=3.4, drawstyle="steps-post",
-              label="closed form of the moment")
+    axes.plot(truth.numbers("t_s"), truth.numbers("torsion_Nm"), color=style.ORANGE, linewidth=3.4,
+              drawstyle="steps-post", label="closed form of the moment")
     axes.plot(times, moments, color=style.BLACK, linewidth=1.4, drawstyle="steps-pre", marker="o", markersize=4,
               label="torsional moment, implicit NCP, mean over the step [N m]")
     for column in ("tangent_x_N", "tangent_y_N"):
@@ -79,8 +79,8 @@ def figure_4(directory):
     axes.set_ylabel("force [N], moment [N m]")
     axes.legend(frameon=False, loc="upper left", fontsize=style.LABEL_POINTS, bbox_to_anchor=(0.0, 0.93))
     style.headline(figure, "The last step brakes with what is left: 0.02/0.07 of the full moment",
-                   "Example 2, Fig. 4 of the paper, h = 0.07 s. The sphere brakes from 0.98 s to 1 s only; the step's moment "
-                   "is the\nmean over its 0.07 s. With impulses as unknowns friction need not drop to zero at once.")
+                   "Example 2, Fig. 4 of the paper, h = 0.07 s. The sphere brakes from 0.98 s to 1 s only; the step's "
+                   "moment is the\nmean over its 0.07 s. With impulses as unknowns friction need not drop to zero at once.")
     return figure
 
 
@@ -99,6 +99,6 @@ def errors(directory):
     axes.set_ylabel("largest error of the spin [rad/s]")
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=style.LABEL_POINTS)
     style.headline(figure, "A linear fall is exact at every step, to the precision that a method works in",
-                   "Example 2. The spin falls linearly, so that a step of any size ends on the truth: rigid methods are off by "
-                   "their rounding.\nODE shows its constraint-force mixing, MuJoCo its softness.")
+                   "Example 2. The spin falls linearly, so that a step of any size ends on the truth: rigid methods are off "
+                   "by their rounding.\nODE shows its constraint-force mixing, MuJoCo its softness.")
     return figure
