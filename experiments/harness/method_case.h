@@ -27,6 +27,14 @@ struct MethodCase {
   std::function<std::vector<std::vector<Row>>(const CaseRun<Dim>&)> tabulate;
 };
 
+/// The key of every method of this build, sorted: what --methods is by default where all are to be compared.
+template <int Dim>
+std::vector<std::string> method_keys() {
+  std::vector<std::string> keys;
+  for (const MethodEntry<Dim>& entry : methods<Dim>()) keys.emplace_back(entry.key);
+  return keys;
+}
+
 /// The options in force of `method` on `scene`; those that were given if it cannot represent the scene.
 /// @throws InputError on an unknown method, or an unknown or bad option
 template <int Dim>
@@ -37,6 +45,16 @@ Options options_in_force(const Scene<Dim>& scene, const MethodSpec& method) {
   } catch (const Unsupported&) {
     return method.options;  // its row will say so
   }
+}
+
+/// A run of the same method on the same scene with another step, or of another method with the same one, for
+/// a row that compares the two. Rows of a table are made one by one, so that a sweep can stop and go on and
+/// its cases can run anywhere; hence it is run again rather than looked up.
+/// @throws Unsupported if the method cannot represent the scene
+template <int Dim>
+CaseRun<Dim> run_beside(const Scene<Dim>& scene, const MethodSpec& method, double h, double until) {
+  const auto beside = find_method<Dim>(method.key).make(scene, method.options);
+  return run_case(*beside, {.h = h, .until = until, .report = {}, .keep_steps = true});
 }
 
 /// The case, with the method, its options and the horizon already checked, so that what is wrong with them is

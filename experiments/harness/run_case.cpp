@@ -49,6 +49,7 @@ class Runner {
       : method_(method),
         options_(options),
         judge_(method.scene()),
+        ledger_(method.scene(), judge_, method.state()),
         steps_(step_count(options.until, options.h)) {
     every_ = std::max(1L, (steps_ + options.samples - 1) / options.samples);
     run_.samples.reserve(static_cast<std::size_t>(steps_ / every_ + 2));
@@ -109,6 +110,16 @@ class Runner {
     raise(run_.residual.contact, r.contact);
     raise(run_.residual.friction, r.friction);
     raise(run_.residual.joints, r.joints);
+    if (!options_.keep_steps) return;
+    ledger_.book(options_.h, before_, method_.state(), method_.contacts(), method_.joints());
+    run_.account = ledger_.account();
+  }
+
+  void keep(long k) {
+    const auto state = method_.state();
+    const auto contacts = method_.contacts();
+    run_.kept.push_back({time_of(k), {state.begin(), state.end()}, {}});
+    if (k > 0) run_.kept.back().contacts.assign(contacts.begin(), contacts.end());
   }
 
   void note_estimate() {
@@ -131,11 +142,13 @@ class Runner {
     for (std::size_t i = 0; i < report_steps_.size(); ++i) {
       if (report_steps_[i] == k) run_.reported[i] = now;
     }
+    if (options_.keep_steps) keep(k);
   }
 
   Method<Dim>& method_;
   const RunOptions& options_;
   Judge<Dim> judge_;
+  EnergyLedger<Dim> ledger_;
   long steps_;
   long every_ = 1;
   std::vector<std::optional<long>> report_steps_;

@@ -8,6 +8,7 @@
 #include "core/method.h"
 #include "experiments/harness/case.h"
 #include "experiments/harness/judge.h"
+#include "experiments/harness/ledger.h"
 
 /// One method over one horizon, judged at every step by the shared judge.
 namespace touchstone::harness {
@@ -23,6 +24,7 @@ struct RunOptions {
   double until = 1.0;               ///< horizon, a multiple of h [s]
   int samples = 200;                ///< about how many samples of the whole motion to keep
   std::vector<double> report = {};  ///< times whose energy is wanted [s]
+  bool keep_steps = false;          ///< keep every step, and book where its energy went
 };
 
 /// The time of step k is k h, not a sum of h.
@@ -43,6 +45,14 @@ struct EstimatedError {
 template <int Dim>
 EstimatedError estimated_error(const StateError<Dim>& error);
 
+/// What a method told after one step.
+template <int Dim>
+struct KeptStep {
+  double t_s = 0.0;                           ///< end of the step
+  std::vector<BodyState<Dim>> state;          ///< of all bodies of the method's scene
+  std::vector<ContactImpulse<Dim>> contacts;  ///< that acted in it; none at t = 0
+};
+
 template <int Dim>
 struct CaseRun {
   CaseStatus status = CaseStatus::ok;
@@ -62,9 +72,11 @@ struct CaseRun {
   /// method without one.
   std::optional<EstimatedError> estimated_end;
   std::optional<EstimatedError> estimated_largest;
-  long steps = 0;        ///< that were solved
-  long iterations = 0;   ///< as the method tells, over all steps
-  int failed_steps = 0;  ///< 0 or 1: a failed step ends the case
+  std::vector<KeptStep<Dim>> kept;  ///< t = 0 and every solved step, if they are to be kept
+  EnergyAccount account;            ///< since the start, if the steps are to be kept
+  long steps = 0;                   ///< that were solved
+  long iterations = 0;              ///< as the method tells, over all steps
+  int failed_steps = 0;             ///< 0 or 1: a failed step ends the case
 };
 
 /// Steps `method` from its initial state. A step that is not solved ends the case: the state is as it was

@@ -1,11 +1,28 @@
 """The one table of figures: experiment -> figure name -> function of the experiment's directory."""
 
-from . import disc_rolling
+from . import disc_rolling, ellipsoid_rolling, sphere_on_spheres, sphere_spin
 
 EXPERIMENTS = {
     "disc_rolling": {
         "figure_1a": disc_rolling.figure_1a,
         "figure_1b": disc_rolling.figure_1b,
         "loss": disc_rolling.loss,
+    },
+    "ellipsoid_rolling": {
+        "errors": ellipsoid_rolling.errors,
+        "energy_drift": ellipsoid_rolling.energy_drift,
+        "paths": ellipsoid_rolling.paths,
+    },
+    "sphere_on_spheres": {
+        "figure_6": sphere_on_spheres.figure_6,
+        "figure_7": sphere_on_spheres.figure_7,
+        "figure_8": sphere_on_spheres.figure_8,
+        "errors": sphere_on_spheres.errors,
+        "deviations": sphere_on_spheres.deviations,
+    },
+    "sphere_spin": {
+        "figure_3": sphere_spin.figure_3,
+        "figure_4": sphere_spin.figure_4,
+        "errors": sphere_spin.errors,
     },
 }

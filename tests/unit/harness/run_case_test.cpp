@@ -187,6 +187,29 @@ TEST(RunCase, HasNoResidualOfAStepWhereStatesAreNotOfOneRun) {
   EXPECT_TRUE(std::isnan(run.residual.dynamics));
 }
 
+TEST(RunCase, KeepsEveryStepOnlyIfItIsToKeepThem) {
+  Glider glider;
+  const CaseRun<2> run = run_case(glider, {.h = 0.5, .until = 2, .report = {}, .keep_steps = true});
+  ASSERT_EQ(run.kept.size(), 5u);
+  for (std::size_t k = 0; k < run.kept.size(); ++k) {
+    EXPECT_EQ(run.kept[k].t_s, 0.5 * static_cast<double>(k));
+    EXPECT_DOUBLE_EQ(run.kept[k].state.at(0).pose.position.x(), run.kept[k].t_s);
+  }
+  Glider other;
+  EXPECT_TRUE(run_case(other, {.h = 0.5, .until = 2}).kept.empty());
+}
+
+TEST(RunCase, BooksWhatNoImpulseExplainsAsDrift) {
+  Glider glider([](int k, BodyState<2>& body) -> StepReport {
+    if (k == 3) body.velocity[0] = 2.0;
+    return {};
+  });
+  const CaseRun<2> run = run_case(glider, {.h = 0.5, .until = 5, .report = {}, .keep_steps = true});
+  EXPECT_DOUBLE_EQ(run.account.drift, 3.0);
+  EXPECT_EQ(run.account.friction_loss, 0.0);
+  EXPECT_EQ(run.account.impact_loss, 0.0);
+}
+
 TEST(RunCase, StopsBetweenStepsWhenInterrupted) {
   const InterruptScope scope;
   int last = 0;
