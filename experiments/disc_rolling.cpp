@@ -5,7 +5,10 @@
 // N))^2. Source: Example 1 and Fig. 1 of Chakraborty, Berard, Akella and Trinkle, "An implicit time-stepping
 // method for multibody systems with intermittent contact" (2007): (a) over N at h = 0.01 s, (b) over h at N =
 // 1000. Expected: the two curves cross at omega h = 2 pi / N, which at N = 1000 is h = 0.002 s: the "limit"
-// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N.
+// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N. Every engine
+// is run beside them on the disc and on N-gons. A rigid polygon loses energy at its corners whoever simulates
+// it, so a method is judged by what it loses beyond the exact, event-driven polygon; as h falls that is
+// expected to vanish for rigid contacts in double precision.
 
 #include <algorithm>
 #include <memory>
@@ -206,6 +209,8 @@ std::vector<std::string> default_methods() {
                                    "step_limited"};
   for (const MethodEntry<2>& entry : methods<2>()) {
     if (!entry.version().empty()) keys.emplace_back(entry.key);
+    // Stiffer friction beside it, which is what its polygon of 30 edges lacks.
+    if (entry.key == "mujoco_elliptic_stiff") keys.emplace_back("mujoco_elliptic_stiff:impratio=100");
   }
   return keys;
 }
@@ -253,7 +258,7 @@ CommandLineSpec command_line() {
                {"engine-step-sizes",
                 "step sizes h [s], sweep of all methods; 10,000 steps at most",
                 AxisKind::positive,
-                {"0.01", "0.001", "0.0001"},
+                {"0.01", "0.001", "0.0001", "0.00002"},
                 {"0.01"}}},
       .until = 10.0,
       .quick_until = 1.0};

@@ -37,9 +37,10 @@ void raise(double& largest, double value) {
 template <int Dim>
 class Runner {
  public:
-  Runner(Method<Dim>& method, const RunOptions& options)
+  Runner(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer)
       : method_(method),
         options_(options),
+        observer_(observer),
         judge_(method.scene()),
         steps_(step_count(options.until, options.h)) {
     every_ = std::max(1L, (steps_ + options.samples - 1) / options.samples);
@@ -100,6 +101,7 @@ class Runner {
 
   /// Energy and penetration after step k, and what is to be kept of them.
   void observe(long k) {
+    if (observer_) observer_(time_of(k), method_.state());
     const Energy now = judge_.energy(method_.state());
     if (k == 0) run_.initial = now;
     run_.final = now;
@@ -113,6 +115,7 @@ class Runner {
 
   Method<Dim>& method_;
   const RunOptions& options_;
+  const Observer<Dim>& observer_;
   Judge<Dim> judge_;
   long steps_;
   long every_ = 1;
@@ -133,11 +136,11 @@ long step_count(double until, double h) {
 }
 
 template <int Dim>
-CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options) {
-  return Runner<Dim>(method, options).run();
+CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer) {
+  return Runner<Dim>(method, options, observer).run();
 }
 
-template CaseRun<2> run_case(Method<2>&, const RunOptions&);
-template CaseRun<3> run_case(Method<3>&, const RunOptions&);
+template CaseRun<2> run_case(Method<2>&, const RunOptions&, const Observer<2>&);
+template CaseRun<3> run_case(Method<3>&, const RunOptions&, const Observer<3>&);
 
 }  // namespace touchstone::harness
