@@ -5,10 +5,10 @@
 // N))^2. Source: Example 1 and Fig. 1 of Chakraborty, Berard, Akella and Trinkle, "An implicit time-stepping
 // method for multibody systems with intermittent contact" (2007): (a) over N at h = 0.01 s, (b) over h at N =
 // 1000. Expected: the two curves cross at omega h = 2 pi / N, which at N = 1000 is h = 0.002 s: the "limit"
-// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N. Every engine
-// is run beside them on the disc and on N-gons. A rigid polygon loses energy at its corners whoever simulates
-// it, so a method is judged by what it loses beyond the exact, event-driven polygon; as h falls that is
-// expected to vanish for rigid contacts in double precision.
+// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N. Every
+// engine is run beside them on the disc and on N-gons. A rigid polygon loses energy at its corners whoever
+// simulates it, so a method is judged by what it loses beyond the exact, event-driven polygon; as h falls
+// that is expected to vanish for rigid contacts in double precision.
 
 #include <algorithm>
 #include <memory>
@@ -70,7 +70,7 @@ std::vector<Point> points(const Selection& selection) {
 std::vector<double> truth_times(const std::vector<Point>& points) {
   std::vector<double> times = kReportTimes;
   for (const Point& point : points) {
-    const std::vector<double> samples = sample_times(point.until);
+    const std::vector<double> samples = sample_times(point);
     times.insert(times.end(), samples.begin(), samples.end());
   }
   return times;
@@ -187,8 +187,7 @@ class CaseList {
     spec.scene = scene_;
     spec.method = method;
     spec.sweep = std::move(sweep);
-    const int samples = point.sweep == "engines" ? kEngineSamples : kSamples;
-    spec.run = {.h = point.h, .until = point.until, .samples = samples, .report = kReportTimes};
+    spec.run = {.h = point.h, .until = point.until, .samples = samples_of(point), .report = kReportTimes};
     spec.cost_of_step = cost_of_step;
     spec.tabulate = [point, is_polygon, truths = truths_](const CaseRun<2>& run) {
       return method_rows(run, point, is_polygon ? &truths->at(point.edges) : nullptr);

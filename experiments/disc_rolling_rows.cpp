@@ -122,9 +122,12 @@ const std::vector<std::string>& curve_columns() {
   return columns;
 }
 
-std::vector<double> sample_times(double until, int samples) {
+int samples_of(const Point& point) { return point.sweep == "engines" ? kEngineSamples : kSamples; }
+
+std::vector<double> sample_times(const Point& point) {
+  const int samples = samples_of(point);
   std::vector<double> times;
-  for (int k = 0; k <= samples; ++k) times.push_back(until * k / samples);
+  for (int k = 0; k <= samples; ++k) times.push_back(point.until * k / samples);
   return times;
 }
 
@@ -170,7 +173,7 @@ CaseResult truth_result(const EnergyCurve& truth, const Point& point) {
   const std::optional<Energy> end = truth(point.until);
   if (start && end) set_loss(summary, start->total() - end->total());
   std::vector<Row> curve;
-  for (const double t : sample_times(point.until)) {
+  for (const double t : sample_times(point)) {
     const std::optional<Energy> energy = truth(t);
     if (energy) curve.push_back({number_cell(t), number_cell(energy->kinetic), number_cell(energy->total())});
   }

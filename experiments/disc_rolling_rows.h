@@ -14,7 +14,8 @@ namespace touchstone::disc_rolling {
 
 inline const DiscRolling kDisc;
 inline const std::vector<double> kReportTimes = {1, 2, 5, 10};  // [s]
-inline constexpr int kSamples = 200;                            ///< of a truth, and of a method of ours
+inline constexpr int kSamples = 200;                            ///< of a curve
+inline constexpr int kEngineSamples = 20;                       ///< of a curve of the sweep `engines`
 inline constexpr double kUntilOfCheck = 2.0;                    // [s]
 inline constexpr long kMostEngineSteps = 10'000;                ///< of a case of the sweep `engines`
 
@@ -33,8 +34,10 @@ const std::vector<std::string>& curve_columns();
 /// The exact polygon by number of edges.
 using ExactPolygons = std::map<int, ExactPolygon>;
 
-/// About `samples` equally spaced times from 0 to `until` [s], both included.
-std::vector<double> sample_times(double until, int samples = kSamples);
+/// How many samples of its motion a case at `point` keeps.
+int samples_of(const Point& point);
+/// As many equally spaced times from 0 to the horizon [s], both included.
+std::vector<double> sample_times(const Point& point);
 
 /// Whether `key` in --methods is one of the truths.
 bool is_truth(const std::string& key);
