@@ -66,9 +66,9 @@ std::span<const MethodEntry<Dim>> methods() {
 }
 
 template <int Dim>
-const MethodEntry<Dim>& find_method(std::string_view key) {
+const MethodEntry<Dim>& find_method(std::string_view key, std::span<const MethodEntry<Dim>> table) {
   std::vector<std::string_view> known;
-  for (const auto& entry : methods<Dim>()) {
+  for (const auto& entry : table) {
     if (entry.key == key) return entry;
     known.push_back(entry.key);
   }
@@ -77,7 +77,7 @@ const MethodEntry<Dim>& find_method(std::string_view key) {
 
 template std::span<const MethodEntry<2>> methods<2>();
 template std::span<const MethodEntry<3>> methods<3>();
-template const MethodEntry<2>& find_method<2>(std::string_view);
-template const MethodEntry<3>& find_method<3>(std::string_view);
+template const MethodEntry<2>& find_method<2>(std::string_view, std::span<const MethodEntry<2>>);
+template const MethodEntry<3>& find_method<3>(std::string_view, std::span<const MethodEntry<3>>);
 
 }  // namespace touchstone

@@ -21,7 +21,7 @@
 #include "experiments/harness/contact_view.h"
 #include "experiments/harness/experiment.h"
 #include "experiments/harness/method_case.h"
-#include "experiments/harness/state_error.h"
+#include "experiments/harness/motion_error.h"
 #include "experiments/scenarios/ball_history.h"
 #include "experiments/scenarios/sphere_on_spheres.h"
 

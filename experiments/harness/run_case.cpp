@@ -45,9 +45,10 @@ void raise(EstimatedError& largest, const EstimatedError& error) {
 template <int Dim>
 class Runner {
  public:
-  Runner(Method<Dim>& method, const RunOptions& options)
+  Runner(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer)
       : method_(method),
         options_(options),
+        observer_(observer),
         judge_(method.scene()),
         ledger_(method.scene(), judge_, method.state()),
         steps_(step_count(options.until, options.h)) {
@@ -133,6 +134,7 @@ class Runner {
 
   /// Energy and penetration after step k, and what is to be kept of them.
   void observe(long k) {
+    if (observer_) observer_(time_of(k), method_.state());
     const Energy now = judge_.energy(method_.state());
     if (k == 0) run_.initial = now;
     run_.final = now;
@@ -147,6 +149,7 @@ class Runner {
 
   Method<Dim>& method_;
   const RunOptions& options_;
+  const Observer<Dim>& observer_;
   Judge<Dim> judge_;
   EnergyLedger<Dim> ledger_;
   long steps_;
@@ -174,13 +177,13 @@ EstimatedError estimated_error(const StateError<Dim>& error) {
 }
 
 template <int Dim>
-CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options) {
-  return Runner<Dim>(method, options).run();
+CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer) {
+  return Runner<Dim>(method, options, observer).run();
 }
 
 template EstimatedError estimated_error(const StateError<2>&);
 template EstimatedError estimated_error(const StateError<3>&);
-template CaseRun<2> run_case(Method<2>&, const RunOptions&);
-template CaseRun<3> run_case(Method<3>&, const RunOptions&);
+template CaseRun<2> run_case(Method<2>&, const RunOptions&, const Observer<2>&);
+template CaseRun<3> run_case(Method<3>&, const RunOptions&, const Observer<3>&);
 
 }  // namespace touchstone::harness

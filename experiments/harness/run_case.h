@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,12 +80,16 @@ struct CaseRun {
   int failed_steps = 0;             ///< 0 or 1: a failed step ends the case
 };
 
+/// Called with the time [s] and the state of all bodies at t = 0 and after every solved step.
+template <int Dim>
+using Observer = std::function<void(double t_s, std::span<const BodyState<Dim>> state)>;
+
 /// Steps `method` from its initial state. A step that is not solved ends the case: the state is as it was
 /// before it, and another step of the same size from the same state would fail in the same way. So does a
 /// state that is not finite, whatever the method's status says. Everything is computed from method.scene(),
 /// which is what the method simulates.
 /// @throws Interrupted between two steps
 template <int Dim>
-CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options);
+CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer = {});
 
 }  // namespace touchstone::harness

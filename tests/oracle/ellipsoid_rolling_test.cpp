@@ -5,7 +5,7 @@
 
 #include "experiments/harness/contact_view.h"
 #include "experiments/harness/method_case.h"
-#include "experiments/harness/state_error.h"
+#include "experiments/harness/motion_error.h"
 #include "experiments/scenarios/ellipsoid_rolling.h"
 
 namespace touchstone {

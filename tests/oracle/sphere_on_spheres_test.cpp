@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "experiments/harness/method_case.h"
-#include "experiments/harness/state_error.h"
+#include "experiments/harness/motion_error.h"
 #include "experiments/scenarios/ball_history.h"
 #include "experiments/scenarios/sphere_on_spheres.h"
 

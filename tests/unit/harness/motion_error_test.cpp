@@ -1,6 +1,6 @@
 // Errors against a truth and the order at which they fall.
 
-#include "experiments/harness/state_error.h"
+#include "experiments/harness/motion_error.h"
 
 #include <gtest/gtest.h>
 
@@ -26,23 +26,23 @@ CaseRun<3> run_of(const std::vector<double>& times) {
   return run;
 }
 
-TEST(StateError, IsOfEachQuantityByItself) {
+TEST(MotionError, IsOfEachQuantityByItself) {
   BodyState<3> state = true_state();
-  EXPECT_LT(state_error(state, kTruth).velocity, 1e-15);
+  EXPECT_LT(motion_error(state, kTruth).velocity, 1e-15);
   state.velocity[4] -= 0.25;
   state.velocity[1] += 0.125;
   state.pose.position += Vector<3>(0, 3, 4);
   state.pose.rotation = state.pose.rotation.turned({0.02, 0, 0});
-  const StateError error = state_error(state, kTruth);
+  const MotionError error = motion_error(state, kTruth);
   EXPECT_DOUBLE_EQ(error.velocity, 0.25);
   EXPECT_DOUBLE_EQ(error.position, 5.0);
   EXPECT_NEAR(error.rotation, 0.02, 1e-14);
 }
 
-TEST(StateError, ARotationIsTheSameForBothSignsOfItsQuaternion) {
+TEST(MotionError, ARotationIsTheSameForBothSignsOfItsQuaternion) {
   TrueMotion other = kTruth;
   other.orientation.coeffs() *= -1.0;
-  EXPECT_LT(state_error(true_state(), other).rotation, 1e-7);
+  EXPECT_LT(motion_error(true_state(), other).rotation, 1e-7);
 }
 
 TEST(ReportedErrors, AreNoneBetweenStepsAndBeyondRunOrTruth) {
@@ -54,7 +54,7 @@ TEST(ReportedErrors, AreNoneBetweenStepsAndBeyondRunOrTruth) {
   EXPECT_FALSE(errors[3]);
   EXPECT_FALSE(errors[4]);
   EXPECT_TRUE(std::isnan(largest_velocity_error(errors))) << "one is missing";
-  EXPECT_EQ(largest_velocity_error({StateError{.velocity = 1}, StateError{.velocity = 3}}), 3.0);
+  EXPECT_EQ(largest_velocity_error({MotionError{.velocity = 1}, MotionError{.velocity = 3}}), 3.0);
 }
 
 TEST(ObservedOrder, IsTheExponentOfThePowerLaw) {
@@ -70,8 +70,8 @@ TEST(ErrorColumns, HoldWhatIsSet) {
   const std::vector<double> times = {0.5, 2};
   const std::vector<std::string> columns = error_columns(times);
   Record record(columns);
-  const ReportedErrors fine = {StateError{.velocity = 0.01}, StateError{.velocity = 0.03}};
-  const ReportedErrors coarse = {StateError{.velocity = 0.02}, std::nullopt};
+  const ReportedErrors fine = {MotionError{.velocity = 0.01}, MotionError{.velocity = 0.03}};
+  const ReportedErrors coarse = {MotionError{.velocity = 0.02}, std::nullopt};
   set_errors(record, times, fine);
   set_orders(record, times, coarse, 0.2, fine, 0.1);
   const auto cell = [&](const std::string& name) {

@@ -1,4 +1,4 @@
-#include "experiments/harness/state_error.h"
+#include "experiments/harness/motion_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,11 @@ std::string at_time(const std::string& quantity, double t, const std::string& un
   return quantity + "_" + number_cell(t) + "s" + unit;
 }
 
-double velocity_of(const std::optional<StateError>& error) { return error ? error->velocity : kNone; }
+double velocity_of(const std::optional<MotionError>& error) { return error ? error->velocity : kNone; }
 
 }  // namespace
 
-StateError state_error(const BodyState<3>& state, const TrueMotion& truth) {
+MotionError motion_error(const BodyState<3>& state, const TrueMotion& truth) {
   Twist<3> velocity;
   velocity << truth.velocity, truth.omega;
   const Eigen::Quaterniond left = truth.orientation.conjugate() * state.pose.rotation.quaternion();
@@ -36,7 +36,7 @@ ReportedErrors reported_errors(const CaseRun<3>& run, int body, const std::vecto
     });
     const std::optional<TrueMotion> motion = truth(times[i]);
     if (step == run.kept.end() || !motion) continue;
-    errors[i] = state_error(step->state[static_cast<std::size_t>(body)], *motion);
+    errors[i] = motion_error(step->state[static_cast<std::size_t>(body)], *motion);
   }
   return errors;
 }

@@ -21,15 +21,15 @@ struct TrueMotion {
 /// None where the truth does not reach. @param t  [s]
 using MotionTruth = std::function<std::optional<TrueMotion>(double t)>;
 
-struct StateError {
+struct MotionError {
   double velocity = 0.0;  ///< the largest of the six components' errors [m/s, rad/s]
   double position = 0.0;  ///< [m]
   double rotation = 0.0;  ///< angle of the turn that is left over [rad]
 };
-StateError state_error(const BodyState<3>& state, const TrueMotion& truth);
+MotionError motion_error(const BodyState<3>& state, const TrueMotion& truth);
 
 /// One entry a report time; none beyond the run or the truth, or between two steps.
-using ReportedErrors = std::vector<std::optional<StateError>>;
+using ReportedErrors = std::vector<std::optional<MotionError>>;
 
 /// @param run   with kept steps
 /// @param body  index in the scene
