@@ -46,6 +46,9 @@ class Runner {
     run_.samples.reserve(static_cast<std::size_t>(steps_ / every_ + 2));
     for (const double t : options.report) report_steps_.push_back(multiple_of(t, options.h));
     run_.reported.resize(options.report.size());
+    run_.planned_steps = steps_;
+    run_.impulses = method.capabilities().contact_impulses;
+    if (options.ledger) ledger_.emplace(method.scene(), judge_, method.state());
   }
 
   CaseRun<Dim> run() {
@@ -57,6 +60,7 @@ class Runner {
       run_.iterations += report.iterations;
       if (!accept(report, k)) break;
       judge_step();
+      book_step();
       observe(k);
     }
     run_.end.assign(method_.state().begin(), method_.state().end());
@@ -98,6 +102,12 @@ class Runner {
     raise(run_.residual.joints, r.joints);
   }
 
+  void book_step() {
+    if (!ledger_) return;
+    ledger_->book(options_.h, before_, method_.state(), method_.contacts(), method_.joints());
+    run_.account = ledger_->account();
+  }
+
   /// Energy and penetration after step k, and what is to be kept of them.
   void observe(long k) {
     const Energy now = judge_.energy(method_.state());
@@ -105,15 +115,22 @@ class Runner {
     run_.final = now;
     raise(run_.largest_drift_J, std::abs(now.total() - run_.initial.total()));
     raise(run_.largest_penetration, judge_.largest_penetration(method_.state()));
-    if (k % every_ == 0 || k == steps_) run_.samples.push_back({time_of(k), now});
+    if (k % every_ == 0 || k == steps_) keep_sample(k, now);
     for (std::size_t i = 0; i < report_steps_.size(); ++i) {
       if (report_steps_[i] == k) run_.reported[i] = now;
     }
   }
 
+  void keep_sample(long k, const Energy& now) {
+    run_.samples.push_back({time_of(k), now});
+    if (options_.states) run_.states.emplace_back(method_.state().begin(), method_.state().end());
+    if (options_.ledger) run_.accounts.push_back(run_.account);
+  }
+
   Method<Dim>& method_;
   const RunOptions& options_;
   Judge<Dim> judge_;
+  std::optional<EnergyLedger<Dim>> ledger_;
   long steps_;
   long every_ = 1;
   std::vector<std::optional<long>> report_steps_;

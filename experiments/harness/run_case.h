@@ -8,6 +8,7 @@
 #include "core/method.h"
 #include "experiments/harness/case.h"
 #include "experiments/harness/judge.h"
+#include "experiments/harness/ledger.h"
 
 /// One method over one horizon, judged at every step by the shared judge.
 namespace touchstone::harness {
@@ -23,6 +24,8 @@ struct RunOptions {
   double until = 1.0;               ///< horizon, a multiple of h [s]
   int samples = 200;                ///< about how many samples of the whole motion to keep
   std::vector<double> report = {};  ///< times whose energy is wanted [s]
+  bool states = false;              ///< keep the bodies' states at the samples
+  bool ledger = false;              ///< book where the energy goes, at every step
 };
 
 /// The time of step k is k h, not a sum of h.
@@ -36,6 +39,10 @@ struct CaseRun {
   CaseStatus status = CaseStatus::ok;
   std::string reason;
   std::vector<Sample> samples;  ///< t = 0, every so many steps, and the last; up to a failure
+  /// Of all bodies at the times of the samples; none unless RunOptions::states.
+  std::vector<std::vector<BodyState<Dim>>> states;
+  /// Since the start, at the times of the samples; none unless RunOptions::ledger.
+  std::vector<EnergyAccount> accounts;
   /// At RunOptions::report; none if that is no multiple of h, beyond the horizon or after a failure.
   std::vector<std::optional<Energy>> reported;
   std::vector<BodyState<Dim>> end;  ///< state at the horizon, or before the failed step
@@ -44,9 +51,13 @@ struct CaseRun {
   double largest_drift_J = 0.0;      ///< of |E(t_k) - E(0)| over all steps
   double largest_penetration = 0.0;  ///< over all steps, t = 0 included [m]
   StepResidual residual;             ///< each part's largest over all steps
-  long steps = 0;                    ///< that were solved
-  long iterations = 0;               ///< as the method tells, over all steps
-  int failed_steps = 0;              ///< 0 or 1: a failed step ends the case
+  bool impulses =
+      false;  ///< whether the method tells its contact impulses, without which `account` says little
+  EnergyAccount account;   ///< up to the last step that was solved; zero unless RunOptions::ledger
+  long steps = 0;          ///< that were solved
+  long planned_steps = 0;  ///< that make up the horizon
+  long iterations = 0;     ///< as the method tells, over all steps
+  int failed_steps = 0;    ///< 0 or 1: a failed step ends the case
 };
 
 /// Steps `method` from its initial state. A step that is not solved ends the case: the state is as it was
