@@ -9,7 +9,7 @@ export CCACHE_BASEDIR="$ROOT" CCACHE_NOHASHDIR=1
 
 # Programs that run an experiment, build/PRESET/experiments/NAME each; adding an experiment adds its name here.
 # shellcheck disable=SC2034  # used by the scripts that source this file
-readonly EXPERIMENTS=(disc_rolling)
+readonly EXPERIMENTS=(box_on_incline disc_rolling euler_disc rattleback tippe_top)
 
 # fail CODE MESSAGE...: a message for a person on stderr, then exit CODE.
 fail() {
