@@ -9,9 +9,11 @@ template <int Dim>
 std::unique_ptr<Method<Dim>> make_implicit_ncp(const Scene<Dim>& scene, const Options& options) {
   OptionReader read("implicit_ncp", options);
   ImplicitOptions implicit;
-  implicit.solver = read.choice("solver", "path", {"path", "semismooth"}) == "path"
-                        ? ImplicitOptions::Solver::path
-                        : ImplicitOptions::Solver::semismooth;
+  using Solver = ImplicitOptions::Solver;
+  const std::string solver = read.choice("solver", "condensed", {"condensed", "path", "semismooth"});
+  implicit.solver = solver == "condensed" ? Solver::condensed
+                    : solver == "path"    ? Solver::path
+                                          : Solver::semismooth;
   implicit.gap = read.choice("gap", "workspace", {"workspace", "distance"}) == "workspace"
                      ? GapFunction::workspace
                      : GapFunction::distance;

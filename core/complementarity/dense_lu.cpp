@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace touchstone {
 
@@ -11,6 +12,32 @@ using Eigen::Index;
 
 namespace {
 constexpr std::size_t usual_deficiency = 4;  // a larger one makes the null space's storage grow
+
+/// Runs the same loops with the order known to the compiler for the orders that one or two contacts lead to.
+template <typename Loops>
+bool with_fixed_size(Index n, const Loops& loops) {
+  switch (n) {
+    case 3:
+      return loops(std::integral_constant<Index, 3>{});  // points of a disc on a plane
+    case 4:
+      return loops(std::integral_constant<Index, 4>{});  // of two discs
+    case 5:
+      return loops(
+          std::integral_constant<Index, 5>{});  // of a ball on a plane; a body in the plane, 1 contact
+    case 6:
+      return loops(std::integral_constant<Index, 6>{});  // of two balls
+    case 7:
+      return loops(std::integral_constant<Index, 7>{});  // a body in the plane, 2 contacts
+    case 10:
+      return loops(std::integral_constant<Index, 10>{});  // a body in space, 1 contact
+    case 14:
+      return loops(std::integral_constant<Index, 14>{});  // a body in space, 2 contacts
+    case 16:
+      return loops(std::integral_constant<Index, 16>{});  // two bodies in space, 1 contact
+    default:
+      return loops(n);
+  }
+}
 }  // namespace
 
 Eigen::Map<Eigen::MatrixXd> DenseLu::matrix(Index n) {
@@ -35,17 +62,23 @@ bool DenseLu::factor(double tolerance) {
 }
 
 bool DenseLu::factor_small(double tolerance) {
+  return with_fixed_size(n_, [&](auto size) { return factor_of(size, tolerance); });
+}
+
+template <typename Size>
+bool DenseLu::factor_of(Size size, double tolerance) {
+  const Index n = size;
   double* const a = storage_.data();
-  for (Index j = 0; j < n_; ++j) {
+  for (Index j = 0; j < n; ++j) {
     double largest = 0.0;
-    for (Index i = 0; i < n_; ++i) largest = std::max(largest, std::abs(a[i + j * n_]));
+    for (Index i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i + j * n]));
     column_scale_[static_cast<std::size_t>(j)] = largest;
   }
-  for (Index k = 0; k < n_; ++k) {
-    const double* const column = a + k * n_;
+  for (Index k = 0; k < n; ++k) {
+    const double* const column = a + k * n;
     Index pivot_row = k;
     double pivot = std::abs(column[k]);
-    for (Index i = k + 1; i < n_; ++i) {
+    for (Index i = k + 1; i < n; ++i) {
       const double candidate = std::abs(column[i]);
       if (candidate > pivot) {
         pivot = candidate;
@@ -56,8 +89,10 @@ bool DenseLu::factor_small(double tolerance) {
     if (!(pivot > tolerance * column_scale_[static_cast<std::size_t>(k)]) || !std::isfinite(pivot))
       return false;
     exchanges_[static_cast<std::size_t>(k)] = pivot_row;
-    if (pivot_row != k) swap_rows(k, pivot_row);
-    eliminate(k);
+    if (pivot_row != k) {
+      for (Index j = 0; j < n; ++j) std::swap(a[k + j * n], a[pivot_row + j * n]);
+    }
+    eliminate(size, k);
   }
   return true;
 }
@@ -88,39 +123,76 @@ void DenseLu::swap_columns(Index r, Index s) {
 
 // One step of right-looking elimination: multipliers of column k, then the block right of and below the
 // pivot, two columns at a time so that the multipliers are read half as often.
-void DenseLu::eliminate(Index k) {
+template <typename Size>
+void DenseLu::eliminate(Size size, Index k) {
+  const Index n = size;
   double* const a = storage_.data();
-  double* const multipliers = a + k * n_;
+  double* const multipliers = a + k * n;
   const double inverse = 1.0 / multipliers[k];
   inverse_pivot_[static_cast<std::size_t>(k)] = inverse;
-  for (Index i = k + 1; i < n_; ++i) multipliers[i] *= inverse;
+  for (Index i = k + 1; i < n; ++i) multipliers[i] *= inverse;
   const double* __restrict const column = multipliers;
   Index j = k + 1;
-  for (; j + 1 < n_; j += 2) {
-    double* __restrict const first = a + j * n_;
-    double* __restrict const second = first + n_;
+  for (; j + 1 < n; j += 2) {
+    double* __restrict const first = a + j * n;
+    double* __restrict const second = first + n;
     const double first_factor = first[k];
     const double second_factor = second[k];
     if (first_factor == 0.0 && second_factor == 0.0) continue;  // contacts leave many zeros
-    for (Index i = k + 1; i < n_; ++i) {
+    for (Index i = k + 1; i < n; ++i) {
       first[i] -= first_factor * column[i];
       second[i] -= second_factor * column[i];
     }
   }
-  if (j == n_) return;
-  double* __restrict const last = a + j * n_;
+  if (j == n) return;
+  double* __restrict const last = a + j * n;
   const double factor = last[k];
-  for (Index i = k + 1; i < n_; ++i) last[i] -= factor * column[i];
+  for (Index i = k + 1; i < n; ++i) last[i] -= factor * column[i];
 }
 
 void DenseLu::solve(double* x) {
   permute(x);
-  const double* const a = storage_.data();
+  with_fixed_size(n_, [&](auto size) {
+    const Index n = size;
+    const double* const a = storage_.data();
+    for (Index k = 0; k < n; ++k) {
+      const double* const column = a + k * n;
+      for (Index i = k + 1; i < n; ++i) x[i] -= column[i] * x[k];
+    }
+    for (Index k = n - 1; k >= 0; --k) {
+      const double* const column = a + k * n;
+      x[k] *= inverse_pivot_[static_cast<std::size_t>(k)];
+      for (Index i = 0; i < k; ++i) x[i] -= column[i] * x[k];
+    }
+    return true;
+  });
+}
+
+void DenseLu::solve_rows(double* x, Index columns) {
+  assert(n_ < blocked_size);
+  const auto row = [&](Index i) { return x + i * columns; };
   for (Index k = 0; k < n_; ++k) {
-    const double* const column = a + k * n_;
-    for (Index i = k + 1; i < n_; ++i) x[i] -= column[i] * x[k];
+    const Index other = exchanges_[static_cast<std::size_t>(k)];
+    if (other != k) std::swap_ranges(row(k), row(k + 1), row(other));
   }
-  back_substitute(n_, x);
+  with_fixed_size(n_, [&](auto size) {
+    const Index n = size;
+    const double* const a = storage_.data();
+    const auto subtract = [&](Index i, double factor, Index k) {
+      double* __restrict const target = row(i);
+      const double* __restrict const source = row(k);
+      for (Index c = 0; c < columns; ++c) target[c] -= factor * source[c];
+    };
+    for (Index k = 0; k < n; ++k) {
+      for (Index i = k + 1; i < n; ++i) subtract(i, a[i + k * n], k);
+    }
+    for (Index k = n - 1; k >= 0; --k) {
+      const double inverse = inverse_pivot_[static_cast<std::size_t>(k)];
+      for (Index c = 0; c < columns; ++c) row(k)[c] *= inverse;
+      for (Index i = 0; i < k; ++i) subtract(i, a[i + k * n], k);
+    }
+    return true;
+  });
 }
 
 void DenseLu::permute(double* x) {
@@ -153,7 +225,7 @@ Index DenseLu::factor_rank_revealing(double tolerance) {
     std::swap(row_order_[static_cast<std::size_t>(rank_)], row_order_[static_cast<std::size_t>(rank_ + row)]);
     std::swap(column_order_[static_cast<std::size_t>(rank_)],
               column_order_[static_cast<std::size_t>(rank_ + column)]);
-    eliminate(rank_);
+    eliminate(n_, rank_);
   }
   return rank_;
 }

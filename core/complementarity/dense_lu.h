@@ -25,6 +25,10 @@ class DenseLu {
   /// x <- A^-1 x, after factor() returned true. x has n entries.
   void solve(double* x);
 
+  /// The same for several right sides at once, after factor() returned true of a matrix below blocked_size:
+  /// x is n x columns, row after row.
+  void solve_rows(double* x, Eigen::Index columns);
+
   /// Complete pivoting; returns the rank: the number of pivots larger than `tolerance` times the largest one.
   /// The first rank entries of row_order() and column_order() then name a regular block of A.
   [[nodiscard]] Eigen::Index factor_rank_revealing(double tolerance);
@@ -41,7 +45,10 @@ class DenseLu {
   void permute(double* x);
   void swap_rows(Eigen::Index a, Eigen::Index b);
   void swap_columns(Eigen::Index a, Eigen::Index b);
-  void eliminate(Eigen::Index k);
+  template <typename Size>
+  [[nodiscard]] bool factor_of(Size size, double tolerance);
+  template <typename Size>
+  void eliminate(Size size, Eigen::Index k);
   void back_substitute(Eigen::Index order, double* x) const;
   void null_vector(Eigen::Index k, double* x) const;
   void remove_null_components(double* x);

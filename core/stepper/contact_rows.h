@@ -23,6 +23,10 @@ struct Scale {
   double velocity = 1.0;  ///< V = sqrt(|g| L), or L / (1 s) without gravity [m/s]
 };
 
+/// Acts on a twist or gives a wrench of one.
+template <int Dim>
+using MotionMatrix = Eigen::Matrix<double, Dimension<Dim>::velocity, Dimension<Dim>::velocity>;
+
 /// One body at the end of the step, as a function of its unknown nu'.
 template <int Dim>
 struct BodyAtEnd {

@@ -11,6 +11,11 @@ namespace touchstone {
 
 namespace {
 
+/// Unknowns of the largest problem that is handed to the full problem's solvers, whose matrices are dense.
+constexpr Eigen::Index kLargestDense = 3000;
+
+constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
+
 SearchOptions search_options(const ImplicitOptions& options) {
   SearchOptions search;
   search.tolerance = options.tolerance;
@@ -53,22 +58,20 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
       state_(initial_state(scene)),
       end_(state_),
       candidates_(scene_),
+      islands_(scene_),
       problem_(scene_),
+      condensed_({options.tolerance, options.max_iterations}),
       path_(path_options(options)),
-      semismooth_(semismooth_options(options)) {
+      semismooth_(semismooth_options(options)),
+      warm_start_(scene_) {
   problem_.set_gap(options.gap);
-  const auto pairs = candidates_.pairs();
-  memory_.resize(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const ContactPair<Dim>& contact = pairs[i].contact;
-    memory_[i].multipliers.resize(
-        static_cast<std::size_t>(contact.side_1.multipliers() + contact.side_2.multipliers()));
+  for (std::size_t i = 0; i < scene_.joints.size(); ++i) {
+    const int rows = problem_.joint_row_count(static_cast<int>(i));
+    joint_memory_.emplace_back(Eigen::VectorXd::Zero(rows));
+    joints_.push_back({static_cast<int>(i)});
   }
-  active_.reserve(pairs.size());
-  active_contacts_.reserve(pairs.size());
-  contacts_.reserve(pairs.size());
-  joints_.resize(scene_.joints.size());
-  joint_memory_.setZero(problem_.joint_row_count());
+  solved_joint_memory_ = joint_memory_;
+  solved_joints_ = joints_;
 }
 
 template <int Dim>
@@ -77,42 +80,76 @@ StepReport ImplicitStepper<Dim>::step(double h) {
   SolveReport report;
   do {
     collect_candidates();
-    problem_.prepare(state_, h, active_contacts_);
-    report = solve_step();
+    report = solve_islands(h);
     if (!report.solved()) {
       return {StepStatus::not_converged, report.iterations, report.residual, to_string(report.status)};
     }
-    problem_.advance(z_, end_);
   } while (candidates_.add_overlapping(end_));
   accept();
   return {StepStatus::solved, report.iterations, report.residual, {}};
 }
 
+/// Every island on its own, into end_, solved_contacts_ and so on; stops at the first that is not solved.
+/// @return  iterations of all, and the worst residual
 template <int Dim>
-void ImplicitStepper<Dim>::collect_candidates() {
-  active_.clear();
-  active_contacts_.clear();
-  const auto pairs = candidates_.pairs();
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (pairs[i].selected) {
-      active_.push_back(i);
-      active_contacts_.push_back(pairs[i].contact);
-    } else {
-      memory_[i].valid = false;
+SolveReport ImplicitStepper<Dim>::solve_islands(double h) {
+  islands_.split<Dim>(scene_, active_contacts_);
+  problem_.begin(state_, h);
+  SolveReport all;
+  all.status = SolveStatus::solved;
+  all.residual = 0;
+  for (std::size_t i = 0; i < islands_.size(); ++i) {
+    select_island(islands_[i]);
+    const SolveReport report = solve_island();
+    all.iterations += report.iterations;
+    all.residual = std::max(all.residual, report.residual);
+    if (!report.solved()) {
+      all.status = report.status;
+      break;
     }
+    keep_solution();
   }
+  return all;
 }
 
-/// Warm start first; then from cold, where closest points are those of the predicted pose; then the other
-/// solver.
 template <int Dim>
-SolveReport ImplicitStepper<Dim>::solve_step() {
+void ImplicitStepper<Dim>::select_island(const Islands::Island& island) {
+  island_.assign(island.contacts.begin(), island.contacts.end());
+  island_contacts_.clear();
+  for (const std::size_t i : island_) island_contacts_.push_back(active_contacts_[i]);
+  problem_.select(island.bodies, island.joints, island_contacts_);
+  if (z_.size() < problem_.size()) z_.resize(problem_.size());
+}
+
+template <int Dim>
+void ImplicitStepper<Dim>::collect_candidates() {
+  active_contacts_.clear();
+  for (const auto& pair : candidates_.pairs()) {
+    if (pair.selected) active_contacts_.push_back(pair.contact);
+  }
+  warm_start_.match(active_contacts_);
+  solved_contacts_.resize(active_contacts_.size());
+}
+
+/// Warm start first, condensed if allowed; then the full problem from cold, where closest points are those of
+/// the predicted pose; then the other solver.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
-  const Solver other = options_.solver == Solver::path ? Solver::semismooth : Solver::path;
+  SolveReport report;
+  int iterations = 0;
+  if (options_.solver == Solver::condensed) {
+    start_from_memory();
+    report = condensed_.solve(problem_, z_);
+    if (report.solved() || problem_.size() > kLargestDense) return report;
+    iterations += report.iterations;
+  }
+  const Solver first = options_.solver == Solver::semismooth ? Solver::semismooth : Solver::path;
+  const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
   start_from_memory();
-  SolveReport report = run_solver(options_.solver);
-  int iterations = report.iterations;
-  for (const Solver solver : {options_.solver, other}) {
+  report = run_solver(first);
+  iterations += report.iterations;
+  for (const Solver solver : {first, other}) {
     if (report.solved()) break;
     start_cold();
     report = run_solver(solver);
@@ -124,29 +161,37 @@ SolveReport ImplicitStepper<Dim>::solve_step() {
 
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
-  return solver == ImplicitOptions::Solver::path ? path_.solve(problem_, z_)
-                                                 : semismooth_.solve(problem_, z_);
+  exact_z_ = z_.head(problem_.size());
+  const SolveReport report = solver == ImplicitOptions::Solver::path ? path_.solve(problem_, exact_z_)
+                                                                     : semismooth_.solve(problem_, exact_z_);
+  z_.head(problem_.size()) = exact_z_;
+  return report;
 }
 
-/// Contacts that were there in the last step start where it left them, with the velocities that it left;
-/// where one is new the velocities are those of a free step and the new contact's points the closest ones of
-/// the pose that these lead to.
+/// Contacts that were there in the last step start where the last steps lead, and so do velocities; where one
+/// is new the velocities are those of a free step and the new contact's points the closest ones of the pose
+/// that these lead to.
 template <int Dim>
 void ImplicitStepper<Dim>::start_from_memory() {
-  z_.setZero(problem_.size());
-  z_.segment(problem_.layout().joints(), joint_memory_.size()) = joint_memory_;
-  const bool all_known =
-      std::all_of(active_.begin(), active_.end(), [this](std::size_t pair) { return memory_[pair].valid; });
-  const bool constrained = !active_.empty() || !joints_.empty();
-  if (all_known && constrained) {
-    problem_.start_velocity(z_);
+  z_.head(problem_.size()).setZero();
+  for (const int joint : problem_.joints()) {
+    const Eigen::VectorXd& impulses = joint_memory_[static_cast<std::size_t>(joint)];
+    z_.segment(problem_.joint_column(joint), impulses.size()) = impulses;
+  }
+  const int depth = warm_start_.depth(problem_.bodies(), island_);
+  const bool constrained = !island_.empty() || !problem_.joints().empty();
+  if (depth > 0 && constrained) {
+    for (int place = 0; place < problem_.moving_bodies(); ++place) {
+      z_.template segment<Dimension<Dim>::velocity>(problem_.layout().velocity(place)) =
+          warm_start_.velocity(problem_.body(place), depth);
+    }
   } else {
     problem_.free_velocity(z_);
   }
   problem_.advance(z_, end_);
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    if (memory_[active_[i]].valid) {
-      recall(i);
+  for (std::size_t i = 0; i < island_.size(); ++i) {
+    if (warm_start_.knows(island_[i])) {
+      recall(i, depth);
     } else {
       find_points(i);
     }
@@ -155,15 +200,15 @@ void ImplicitStepper<Dim>::start_from_memory() {
 
 template <int Dim>
 void ImplicitStepper<Dim>::start_cold() {
-  z_.setZero(problem_.size());
+  z_.head(problem_.size()).setZero();
   problem_.free_velocity(z_);
   problem_.advance(z_, end_);
-  for (std::size_t i = 0; i < active_contacts_.size(); ++i) find_points(i);
+  for (std::size_t i = 0; i < island_contacts_.size(); ++i) find_points(i);
 }
 
 template <int Dim>
-void ImplicitStepper<Dim>::recall(std::size_t i) {
-  const Memory& memory = memory_[active_[i]];
+void ImplicitStepper<Dim>::recall(std::size_t i, int depth) {
+  const ContactSolution<Dim>& memory = warm_start_.contact(island_[i], depth);
   const ContactLayout& at = problem_.layout().contact(i);
   const Vector<Dim> center = problem_.body_1_position(i, z_);
   problem_.set_normal_estimate(i, memory.normal);
@@ -176,7 +221,7 @@ void ImplicitStepper<Dim>::recall(std::size_t i) {
 
 template <int Dim>
 void ImplicitStepper<Dim>::find_points(std::size_t i) {
-  const ContactPair<Dim>& contact = active_contacts_[i];
+  const ContactPair<Dim>& contact = island_contacts_[i];
   const auto closest =
       closest_points(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
                      *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
@@ -188,31 +233,46 @@ void ImplicitStepper<Dim>::find_points(std::size_t i) {
   problem_.set_multipliers(i, a_1, a_2, closest.normal, z_);
 }
 
+/// What the current island's solution says of the end of the step.
 template <int Dim>
-void ImplicitStepper<Dim>::accept() {
-  contacts_.clear();
-  for (std::size_t i = 0; i < active_.size(); ++i) {
+void ImplicitStepper<Dim>::keep_solution() {
+  problem_.advance(z_, end_);
+  for (std::size_t i = 0; i < island_.size(); ++i) {
     const ContactLayout& at = problem_.layout().contact(i);
-    contacts_.push_back(problem_.impulse(i, z_));
-    Memory& memory = memory_[active_[i]];
+    solved_contacts_[island_[i]] = problem_.impulse(i, z_);
+    ContactSolution<Dim>& memory = warm_start_.next(island_[i]);
     const Vector<Dim> center = problem_.body_1_position(i, z_);
-    memory.valid = true;
-    memory.normal = contacts_.back().normal;
+    memory.normal = solved_contacts_[island_[i]].normal;
     memory.a_1 = problem_.point(i, 0) - center;
     memory.a_2 = problem_.point(i, 1) - center;
     memory.y = z_.template segment<Dimension<Dim>::friction>(at.friction);
     memory.p = z_[at.normal];
     memory.s = z_[at.slip];
-    std::copy_n(z_.data() + at.multipliers_1, memory.multipliers.size(), memory.multipliers.begin());
+    const auto multipliers =
+        island_contacts_[i].side_1.multipliers() + island_contacts_[i].side_2.multipliers();
+    memory.multipliers.assign(z_.data() + at.multipliers_1, z_.data() + at.multipliers_1 + multipliers);
   }
-  joint_memory_ = z_.segment(problem_.layout().joints(), joint_memory_.size());
-  for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i] = problem_.joint_impulse(i, z_);
+  for (const int joint : problem_.joints()) {
+    const auto index = static_cast<std::size_t>(joint);
+    solved_joint_memory_[index] =
+        z_.segment(problem_.joint_column(joint), solved_joint_memory_[index].size());
+    solved_joints_[index] = problem_.joint_impulse(joint, z_);
+  }
+}
+
+/// Makes what was solved the state; a step that is not solved never comes here and changes nothing.
+template <int Dim>
+void ImplicitStepper<Dim>::accept() {
+  warm_start_.accept(active_contacts_, end_);
+  std::swap(joint_memory_, solved_joint_memory_);
+  std::swap(contacts_, solved_contacts_);
+  std::swap(joints_, solved_joints_);
   std::swap(state_, end_);
 }
 
 template <int Dim>
 Options ImplicitStepper<Dim>::effective_options() const {
-  return {{"solver", options_.solver == ImplicitOptions::Solver::path ? "path" : "semismooth"},
+  return {{"solver", kSolverNames[static_cast<std::size_t>(options_.solver)]},
           {"gap", options_.gap == GapFunction::workspace ? "workspace" : "distance"},
           {"tolerance", fmt::format("{}", options_.tolerance)},
           {"max_iterations", fmt::format("{}", options_.max_iterations)}};

@@ -4,15 +4,22 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
+#include "core/stepper/condensed_newton.h"
 #include "core/stepper/contact_candidates.h"
+#include "core/stepper/islands.h"
 #include "core/stepper/step_problem.h"
+#include "core/stepper/warm_start.h"
 
 namespace touchstone {
 
 struct ImplicitOptions {
-  enum class Solver { path, semismooth };
+  enum class Solver {
+    condensed,   ///< closest points eliminated (condensed_newton.h); the other two where that fails
+    path,        ///< the full mixed problem by path-following Newton; from cold; then the other one
+    semismooth,  ///< likewise by semismooth Newton
+  };
 
-  Solver solver = Solver::path;
+  Solver solver = Solver::condensed;
   GapFunction gap = GapFunction::workspace;
   /// A step is solved if the natural residual of its problem is at most this; > 0, in StepProblem's units.
   double tolerance = 1e-13;
@@ -38,30 +45,21 @@ class ImplicitStepper final : public Method<Dim> {
   [[nodiscard]] StepReport step(double h) override;
   [[nodiscard]] Options effective_options() const override;
 
-  /// The last step's problem and its solution, for certificates and tests.
+  /// The problem of the last step's last island and its solution, for certificates and tests.
   [[nodiscard]] const StepProblem<Dim>& problem() const { return problem_; }
-  [[nodiscard]] const Eigen::VectorXd& solution() const { return z_; }
+  [[nodiscard]] Eigen::VectorXd solution() const { return z_.head(problem_.size()); }
 
  private:
-  /// What a pair's last step left for the next one to start from.
-  struct Memory {
-    bool valid = false;
-    Vector<Dim> a_1 = Vector<Dim>::Zero();  ///< relative to body 1, world axes
-    Vector<Dim> a_2 = Vector<Dim>::Zero();
-    Vector<Dim> normal = Vector<Dim>::Zero();
-    FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
-    double p = 0.0;
-    double s = 0.0;
-    std::vector<double> multipliers;
-  };
-
   void collect_candidates();
+  [[nodiscard]] SolveReport solve_islands(double h);
+  void select_island(const Islands::Island& island);
   void start_from_memory();
   void start_cold();
-  void recall(std::size_t i);
+  void recall(std::size_t i, int depth);
   void find_points(std::size_t i);
-  [[nodiscard]] SolveReport solve_step();
+  [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
+  void keep_solution();
   void accept();
 
   const Scene<Dim> scene_;
@@ -69,16 +67,21 @@ class ImplicitStepper final : public Method<Dim> {
   std::vector<BodyState<Dim>> state_;
   std::vector<BodyState<Dim>> end_;  ///< of the step being solved
   ContactCandidates<Dim> candidates_;
+  Islands islands_;
   StepProblem<Dim> problem_;
+  CondensedNewton<Dim> condensed_;
   PathNewton path_;
   SemismoothNewton semismooth_;
-  std::vector<Memory> memory_;       ///< one a pair
-  std::vector<std::size_t> active_;  ///< pairs of this step, in the order of active_contacts_
-  std::vector<ContactPair<Dim>> active_contacts_;
-  Eigen::VectorXd z_;
-  std::vector<ContactImpulse<Dim>> contacts_;
-  std::vector<JointImpulse<Dim>> joints_;
-  Eigen::VectorXd joint_memory_;  ///< scaled joint impulses of the last step
+  WarmStart<Dim> warm_start_;
+  std::vector<ContactPair<Dim>> active_contacts_;  ///< of this step
+  std::vector<std::size_t> island_;  ///< contacts of the current island, numbers in active_contacts_
+  std::vector<ContactPair<Dim>> island_contacts_;
+  Eigen::VectorXd z_;        ///< of the current island, in its first entries
+  Eigen::VectorXd exact_z_;  ///< of just its length, for the full problem's solvers
+  std::vector<ContactImpulse<Dim>> contacts_, solved_contacts_;
+  std::vector<JointImpulse<Dim>> joints_, solved_joints_;
+  /// Scaled impulses of each joint, of the last step and of this one.
+  std::vector<Eigen::VectorXd> joint_memory_, solved_joint_memory_;
 };
 
 }  // namespace touchstone

@@ -8,8 +8,6 @@ namespace {
 
 template <int Dim>
 using Coefficient = Eigen::Matrix<double, 1, Dimension<Dim>::velocity>;
-template <int Dim>
-using MotionMatrix = Eigen::Matrix<double, Dimension<Dim>::velocity, Dimension<Dim>::velocity>;
 
 /// r x f as a scalar in the plane, a vector in space.
 template <int Dim>
@@ -190,8 +188,8 @@ JointRows<Dim> joint_rows(const Joint<Dim>& joint, const Pose<Dim>& pose_a, cons
 
 template <int Dim>
 void add_joint(const JointRows<Dim>& joint, const std::array<BodyAtEnd<Dim>, 2>& body, const Scale& scale,
-               double h, Eigen::Index first, const Eigen::VectorXd& z, Eigen::VectorXd& f,
-               Eigen::MatrixXd* jacobian) {
+               double h, Eigen::Index first, const Eigen::Ref<const Eigen::VectorXd>& lambda,
+               Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) {
   constexpr int n = Dimension<Dim>::velocity;
   const Directions<Dim> at = directions(joint, body);
   for (std::size_t i = 0; i < joint.rows.size(); ++i) {
@@ -207,12 +205,12 @@ void add_joint(const JointRows<Dim>& joint, const std::array<BodyAtEnd<Dim>, 2>&
       }
       if (body[k].column < 0) continue;
       const Twist<Dim> scaled = -unit * body[k].row_scale.cwiseProduct(state.gradient[k]);
-      f.template segment<n>(body[k].column) += z[index] * scaled;
+      f.template segment<n>(body[k].column) += lambda[static_cast<Eigen::Index>(i)] * scaled;
       if (jacobian == nullptr) continue;
       jacobian->template block<n, 1>(body[k].column, index) += scaled;
       for (std::size_t j = 0; j < 2; ++j) {
-        const MotionMatrix<Dim> second =
-            -unit * z[index] * body[k].row_scale.asDiagonal() * state.second[k][j];
+        const MotionMatrix<Dim> second = -unit * lambda[static_cast<Eigen::Index>(i)] *
+                                         body[k].row_scale.asDiagonal() * state.second[k][j];
         add_motion<Dim, n>(*jacobian, body[k].column, body[j], h, second);
       }
     }
@@ -222,13 +220,12 @@ void add_joint(const JointRows<Dim>& joint, const std::array<BodyAtEnd<Dim>, 2>&
 template <int Dim>
 std::array<Twist<Dim>, 2> joint_wrenches(const JointRows<Dim>& joint,
                                          const std::array<BodyAtEnd<Dim>, 2>& body, const Scale& scale,
-                                         Eigen::Index first, const Eigen::VectorXd& z) {
+                                         const Eigen::Ref<const Eigen::VectorXd>& lambda) {
   std::array<Twist<Dim>, 2> wrenches = {Twist<Dim>::Zero(), Twist<Dim>::Zero()};
   const Directions<Dim> at = directions(joint, body);
   for (std::size_t i = 0; i < joint.rows.size(); ++i) {
     const RowState<Dim> state = evaluate_row(joint.rows[i], at);
-    const double impulse =
-        impulse_unit(joint, joint.rows[i], scale) * z[first + static_cast<Eigen::Index>(i)];
+    const double impulse = impulse_unit(joint, joint.rows[i], scale) * lambda[static_cast<Eigen::Index>(i)];
     for (std::size_t k = 0; k < 2; ++k) wrenches[k] += impulse * state.gradient[k];
   }
   return wrenches;
@@ -237,12 +234,14 @@ std::array<Twist<Dim>, 2> joint_wrenches(const JointRows<Dim>& joint,
 template JointRows<2> joint_rows(const Joint<2>&, const Pose<2>&, const Pose<2>&);
 template JointRows<3> joint_rows(const Joint<3>&, const Pose<3>&, const Pose<3>&);
 template void add_joint(const JointRows<2>&, const std::array<BodyAtEnd<2>, 2>&, const Scale&, double,
-                        Eigen::Index, const Eigen::VectorXd&, Eigen::VectorXd&, Eigen::MatrixXd*);
+                        Eigen::Index, const Eigen::Ref<const Eigen::VectorXd>&, Eigen::VectorXd&,
+                        Eigen::MatrixXd*);
 template void add_joint(const JointRows<3>&, const std::array<BodyAtEnd<3>, 2>&, const Scale&, double,
-                        Eigen::Index, const Eigen::VectorXd&, Eigen::VectorXd&, Eigen::MatrixXd*);
+                        Eigen::Index, const Eigen::Ref<const Eigen::VectorXd>&, Eigen::VectorXd&,
+                        Eigen::MatrixXd*);
 template std::array<Twist<2>, 2> joint_wrenches(const JointRows<2>&, const std::array<BodyAtEnd<2>, 2>&,
-                                                const Scale&, Eigen::Index, const Eigen::VectorXd&);
+                                                const Scale&, const Eigen::Ref<const Eigen::VectorXd>&);
 template std::array<Twist<3>, 2> joint_wrenches(const JointRows<3>&, const std::array<BodyAtEnd<3>, 2>&,
-                                                const Scale&, Eigen::Index, const Eigen::VectorXd&);
+                                                const Scale&, const Eigen::Ref<const Eigen::VectorXd>&);
 
 }  // namespace touchstone

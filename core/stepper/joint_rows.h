@@ -34,18 +34,18 @@ struct JointRows {
 template <int Dim>
 JointRows<Dim> joint_rows(const Joint<Dim>& joint, const Pose<Dim>& pose_a, const Pose<Dim>& pose_b);
 
-/// Writes phi of every row at `first`, and adds -G^T lambda to the momentum rows; lambda stands in z at
-/// `first`.
-/// @param body  both bodies at the end of the step, positions relative to one origin
+/// Writes phi of every row at `first`, and adds -G^T lambda to the momentum rows.
+/// @param lambda  the joint's scaled impulses, one a row, which are the unknowns at `first`
+/// @param body    both bodies at the end of the step, positions relative to one origin
 template <int Dim>
 void add_joint(const JointRows<Dim>& joint, const std::array<BodyAtEnd<Dim>, 2>& body, const Scale& scale,
-               double h, Eigen::Index first, const Eigen::VectorXd& z, Eigen::VectorXd& f,
-               Eigen::MatrixXd* jacobian);
+               double h, Eigen::Index first, const Eigen::Ref<const Eigen::VectorXd>& lambda,
+               Eigen::VectorXd& f, Eigen::MatrixXd* jacobian);
 
 /// The wrenches [N s; N m s] of the joint's impulses on both bodies.
 template <int Dim>
 std::array<Twist<Dim>, 2> joint_wrenches(const JointRows<Dim>& joint,
                                          const std::array<BodyAtEnd<Dim>, 2>& body, const Scale& scale,
-                                         Eigen::Index first, const Eigen::VectorXd& z);
+                                         const Eigen::Ref<const Eigen::VectorXd>& lambda);
 
 }  // namespace touchstone

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "core/surfaces/normal_combination.h"
 
@@ -40,35 +41,65 @@ template <int Dim>
 StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene) {
   row_options_.scale = scene_scale(scene);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    place_.push_back(scene.bodies[i].fixed ? -1 : static_cast<int>(moving_.size()));
+    moving_index_.push_back(scene.bodies[i].fixed ? -1 : static_cast<int>(moving_.size()));
     if (!scene.bodies[i].fixed) moving_.push_back({static_cast<int>(i), scene.bodies[i].mass});
   }
   for (const Joint<Dim>& joint : scene.joints) {
     joints_.push_back(joint_rows(joint, scene.bodies[static_cast<std::size_t>(joint.body_a)].pose,
                                  scene.bodies[static_cast<std::size_t>(joint.body_b)].pose));
     joints_.back().mass = lighter_mass(joint.body_a, joint.body_b);
-    joint_row_count_ += static_cast<Eigen::Index>(joints_.back().rows.size());
   }
+  place_.assign(scene.bodies.size(), -1);
+  joint_column_.assign(joints_.size(), -1);
+  selected_.reserve(moving_.size());
+  selected_joints_.reserve(joints_.size());
 }
 
 template <int Dim>
 void StepProblem<Dim>::set_form(FrictionForm form) {
   row_options_.form = form;
-  assign_bounds();
+  bounds_are_set_ = false;
 }
 
 template <int Dim>
 void StepProblem<Dim>::prepare(std::span<const BodyState<Dim>> state, double h,
                                const std::vector<ContactPair<Dim>>& contacts) {
+  begin(state, h);
+  std::vector<int> bodies;
+  for (const Moving& moving : moving_) bodies.push_back(moving.body);
+  std::vector<int> joints(joints_.size());
+  std::iota(joints.begin(), joints.end(), 0);
+  select(bodies, joints, contacts);
+}
+
+template <int Dim>
+void StepProblem<Dim>::begin(std::span<const BodyState<Dim>> state, double h) {
   row_options_.h = h;
   start_.assign(state.begin(), state.end());
-  contacts_ = contacts;
+  for (auto& moving : moving_) prepare_body(moving);
+}
+
+template <int Dim>
+void StepProblem<Dim>::select(std::span<const int> bodies, std::span<const int> joints,
+                              std::span<const ContactPair<Dim>> contacts) {
+  selected_.clear();
+  for (const int body : bodies) {
+    place_[static_cast<std::size_t>(body)] = static_cast<int>(selected_.size());
+    selected_.push_back(static_cast<std::size_t>(moving_index_[static_cast<std::size_t>(body)]));
+  }
+  selected_bodies_.assign(bodies.begin(), bodies.end());
+  selected_joints_.assign(joints.begin(), joints.end());
+  Eigen::Index next = layout_.velocity(moving_bodies());
+  for (const int joint : joints) {
+    joint_column_[static_cast<std::size_t>(joint)] = next;
+    next += joint_row_count(joint);
+  }
+  contacts_.assign(contacts.begin(), contacts.end());
   prepared_.resize(contacts.size());
   if (states_.size() < contacts.size()) states_.resize(contacts.size());
-  for (auto& moving : moving_) prepare_body(moving);
   for (std::size_t i = 0; i < contacts.size(); ++i) prepare_contact(i);
-  layout_.assign(moving_bodies(), joint_row_count_, contacts_);
-  assign_bounds();
+  layout_.assign(moving_bodies(), next - layout_.velocity(moving_bodies()), contacts_);
+  bounds_are_set_ = false;
 }
 
 template <int Dim>
@@ -127,7 +158,20 @@ double StepProblem<Dim>::lighter_mass(int body_1, int body_2) const {
 }
 
 template <int Dim>
-void StepProblem<Dim>::assign_bounds() {
+const Eigen::VectorXd& StepProblem<Dim>::lower() const {
+  if (!bounds_are_set_) assign_bounds();
+  return lower_;
+}
+
+template <int Dim>
+const Eigen::VectorXd& StepProblem<Dim>::upper() const {
+  if (!bounds_are_set_) assign_bounds();
+  return upper_;
+}
+
+template <int Dim>
+void StepProblem<Dim>::assign_bounds() const {
+  bounds_are_set_ = true;
   lower_.setConstant(layout_.size(), -kInfinity);
   upper_.setConstant(layout_.size(), kInfinity);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -142,9 +186,9 @@ void StepProblem<Dim>::assign_bounds() {
 
 template <int Dim>
 void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < moving_.size(); ++b) {
+  for (std::size_t b = 0; b < selected_.size(); ++b) {
     const Eigen::Index at = layout_.velocity(static_cast<int>(b));
-    const Moving& moving = moving_[b];
+    const Moving& moving = moving_[selected_[b]];
     z.template segment<Dim>(at) = moving.momentum.template head<Dim>() / moving.mass;
     z.template segment<Dimension<Dim>::angular>(at + Dim) =
         moving.inertia.inverse() * moving.momentum.template tail<Dimension<Dim>::angular>();
@@ -153,9 +197,9 @@ void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
 
 template <int Dim>
 void StepProblem<Dim>::start_velocity(Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < moving_.size(); ++b) {
+  for (std::size_t b = 0; b < selected_.size(); ++b) {
     z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b))) =
-        start_[static_cast<std::size_t>(moving_[b].body)].velocity;
+        start_[static_cast<std::size_t>(moving_[selected_[b]].body)].velocity;
   }
 }
 
@@ -167,13 +211,13 @@ BodyAtEnd<Dim> StepProblem<Dim>::body_at_end(int body, const Vector<Dim>& origin
   BodyAtEnd<Dim> end;
   end.pose = start_[index].pose;
   end.pose.position -= origin;
+  if (moving_index_[index] < 0) return end;
   const int place = place_[index];
-  if (place < 0) return end;
   end.column = layout_.velocity(place);
   end.nu = z.template segment<Dimension<Dim>::velocity>(end.column);
   end.turn = turn_jacobian(Angular<Dim>(end.nu.template tail<Dimension<Dim>::angular>()), row_options_.h);
   end.pose = advanced(end.pose, end.nu, row_options_.h);
-  end.row_scale = moving_[static_cast<std::size_t>(place)].row_scale;
+  end.row_scale = moving_[static_cast<std::size_t>(moving_index_[index])].row_scale;
   return end;
 }
 
@@ -186,25 +230,86 @@ void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z) c
   evaluate_contact(pair, prepared_[i], layout_.contact(i), row_options_, z, state);
 }
 
+template <int Dim>
+Twist<Dim> StepProblem<Dim>::momentum_row(int place, const Eigen::VectorXd& z) const {
+  constexpr int kAngular = Dimension<Dim>::angular;
+  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
+  const Eigen::Index at = layout_.velocity(place);
+  Twist<Dim> momentum = -moving.momentum;
+  momentum.template head<Dim>() += moving.mass * z.template segment<Dim>(at);
+  momentum.template tail<kAngular>() += moving.inertia * z.template segment<kAngular>(at + Dim);
+  return moving.row_scale.cwiseProduct(momentum);
+}
+
+template <int Dim>
+MotionMatrix<Dim> StepProblem<Dim>::momentum_matrix(int place) const {
+  constexpr int kAngular = Dimension<Dim>::angular;
+  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
+  MotionMatrix<Dim> matrix = MotionMatrix<Dim>::Zero();
+  matrix.diagonal().template head<Dim>().setConstant(moving.row_scale[0] * moving.mass);
+  matrix.template bottomRightCorner<kAngular, kAngular>() = moving.row_scale[Dim] * moving.inertia;
+  return matrix;
+}
+
 /// M nu' - M nu - p_app - p_vp, the first row of Eq. 10 without the contacts' wrenches.
 template <int Dim>
 void StepProblem<Dim>::momentum_rows(const Eigen::VectorXd& z, Eigen::VectorXd& f,
                                      Eigen::MatrixXd* jacobian) const {
-  constexpr int kAngular = Dimension<Dim>::angular;
-  for (std::size_t b = 0; b < moving_.size(); ++b) {
-    const Eigen::Index at = layout_.velocity(static_cast<int>(b));
-    const Moving& moving = moving_[b];
-    const double linear = moving.row_scale[0];
-    const double angular = moving.row_scale[Dim];
-    f.template segment<Dim>(at) =
-        linear * (moving.mass * z.template segment<Dim>(at) - moving.momentum.template head<Dim>());
-    f.template segment<kAngular>(at + Dim) =
-        angular *
-        (moving.inertia * z.template segment<kAngular>(at + Dim) - moving.momentum.template tail<kAngular>());
-    if (jacobian == nullptr) continue;
-    jacobian->template block<Dim, Dim>(at, at).diagonal().array() += linear * moving.mass;
-    jacobian->template block<kAngular, kAngular>(at + Dim, at + Dim) += angular * moving.inertia;
+  constexpr int n = Dimension<Dim>::velocity;
+  for (int b = 0; b < moving_bodies(); ++b) {
+    const Eigen::Index at = layout_.velocity(b);
+    f.template segment<n>(at) = momentum_row(b, z);
+    if (jacobian != nullptr) jacobian->template block<n, n>(at, at) += momentum_matrix(b);
   }
+}
+
+/// Columns of two bodies' velocities, and room for `own` unknowns behind them.
+template <int Dim>
+void StepProblem<Dim>::place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const {
+  Eigen::Index next = 0;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const auto index = static_cast<std::size_t>(body[k]);
+    const bool moves = moving_index_[index] >= 0;
+    block.place[k] = moves ? place_[index] : -1;
+    block.column[k] = moves ? next : -1;
+    if (moves) next += Dimension<Dim>::velocity;
+  }
+  block.own = next;
+  block.set_size(next + own);
+}
+
+template <int Dim>
+void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const {
+  const ContactPair<Dim>& pair = contacts_[i];
+  const Eigen::Index points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns();
+  const Eigen::Index multipliers = pair.side_1.multipliers() + pair.side_2.multipliers();
+  constexpr Eigen::Index kFriction = Dimension<Dim>::friction;
+  place_bodies({pair.body_1, pair.body_2}, points + kFriction + 2 + multipliers, block);
+  block.at.point_1 = block.own;
+  block.at.point_2 = block.own + pair.side_1.point_unknowns();
+  block.at.friction = block.own + points;
+  block.at.normal = block.at.friction + kFriction;
+  block.at.slip = block.at.normal + 1;
+  block.at.multipliers_1 = block.at.slip + 1;
+  block.at.multipliers_2 = block.at.multipliers_1 + pair.side_1.multipliers();
+  ContactState<Dim>& state = states_[i];
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) state.body[k].column = block.column[k];
+  block.f.head(block.own).setZero();
+  if (derivatives) block.j.topLeftCorner(block.size, block.size).setZero();
+  contact_rows(pair, prepared_[i], block.at, row_options_, state, block.f, derivatives ? &block.j : nullptr);
+}
+
+template <int Dim>
+void StepProblem<Dim>::joint_block(int i, const Eigen::VectorXd& z, bool derivatives,
+                                   StepBlock<Dim>& block) const {
+  const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(i)];
+  place_bodies(joint.body, joint_row_count(i), block);
+  auto body = joint_bodies(joint, z);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) body[k].column = block.column[k];
+  block.f.head(block.own).setZero();
+  if (derivatives) block.j.topLeftCorner(block.size, block.size).setZero();
+  add_joint(joint, body, row_options_.scale, row_options_.h, block.own,
+            z.segment(joint_column(i), joint_row_count(i)), block.f, derivatives ? &block.j : nullptr);
 }
 
 template <int Dim>
@@ -212,10 +317,10 @@ void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
                                 Eigen::MatrixXd* jacobian) const {
   if (jacobian != nullptr) jacobian->setZero();
   momentum_rows(z, f, jacobian);
-  Eigen::Index row = layout_.joints();
-  for (const auto& joint : joints_) {
-    add_joint(joint, joint_bodies(joint, z), row_options_.scale, row_options_.h, row, z, f, jacobian);
-    row += static_cast<Eigen::Index>(joint.rows.size());
+  for (const int j : selected_joints_) {
+    const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(j)];
+    add_joint(joint, joint_bodies(joint, z), row_options_.scale, row_options_.h, joint_column(j),
+              z.segment(joint_column(j), joint_row_count(j)), f, jacobian);
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     evaluate_state(i, z);
@@ -232,11 +337,11 @@ std::array<BodyAtEnd<Dim>, 2> StepProblem<Dim>::joint_bodies(const JointRows<Dim
 }
 
 template <int Dim>
-JointImpulse<Dim> StepProblem<Dim>::joint_impulse(std::size_t i, const Eigen::VectorXd& z) const {
-  Eigen::Index first = layout_.joints();
-  for (std::size_t j = 0; j < i; ++j) first += static_cast<Eigen::Index>(joints_[j].rows.size());
-  const auto wrenches = joint_wrenches(joints_[i], joint_bodies(joints_[i], z), row_options_.scale, first, z);
-  return {static_cast<int>(i), wrenches[0], wrenches[1]};
+JointImpulse<Dim> StepProblem<Dim>::joint_impulse(int i, const Eigen::VectorXd& z) const {
+  const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(i)];
+  const auto wrenches = joint_wrenches(joint, joint_bodies(joint, z), row_options_.scale,
+                                       z.segment(joint_column(i), joint_row_count(i)));
+  return {i, wrenches[0], wrenches[1]};
 }
 
 template <int Dim>
@@ -285,11 +390,11 @@ void StepProblem<Dim>::set_multipliers(std::size_t i, const Vector<Dim>& a_1, co
 
 template <int Dim>
 void StepProblem<Dim>::advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const {
-  for (std::size_t b = 0; b < moving_.size(); ++b) {
-    BodyState<Dim>& body = state[static_cast<std::size_t>(moving_[b].body)];
-    body.velocity = z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b)));
-    body.pose =
-        advanced(start_[static_cast<std::size_t>(moving_[b].body)].pose, body.velocity, row_options_.h);
+  for (std::size_t b = 0; b < selected_.size(); ++b) {
+    const auto index = static_cast<std::size_t>(moving_[selected_[b]].body);
+    state[index].velocity =
+        z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b)));
+    state[index].pose = advanced(start_[index].pose, state[index].velocity, row_options_.h);
   }
 }
 
@@ -314,13 +419,11 @@ template <int Dim>
 std::string StepProblem<Dim>::row_name(Eigen::Index row) const {
   const auto body_name = [this](int body) { return scene_.bodies[static_cast<std::size_t>(body)].name; };
   if (row < layout_.velocity(moving_bodies())) {
-    const auto place = static_cast<std::size_t>(row / Dimension<Dim>::velocity);
-    return fmt::format("momentum of {}", body_name(moving_[place].body));
+    return fmt::format("momentum of {}", body_name(body(static_cast<int>(row / Dimension<Dim>::velocity))));
   }
-  Eigen::Index joint_end = layout_.joints();
-  for (const auto& joint : joints_) {
-    joint_end += static_cast<Eigen::Index>(joint.rows.size());
-    if (row < joint_end)
+  for (const int j : selected_joints_) {
+    const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(j)];
+    if (row < joint_column(j) + joint_row_count(j))
       return fmt::format("joint of {} and {}", body_name(joint.body[0]), body_name(joint.body[1]));
   }
   const auto named = [&](std::size_t i, const char* what) {

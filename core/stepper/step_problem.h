@@ -10,6 +10,27 @@
 
 namespace touchstone {
 
+/// The rows of one contact or joint alone, as functions of its bodies' velocities and of its own unknowns.
+/// Its unknowns and rows, in one order: nu' of body 1 and of body 2 if they move, and then its own.
+template <int Dim>
+struct StepBlock {
+  std::array<int, 2> place{-1, -1};            ///< moving body of the island, -1 for a fixed one
+  std::array<Eigen::Index, 2> column{-1, -1};  ///< of its nu' in the block
+  ContactLayout at{};                          ///< of a contact's own unknowns in the block
+  Eigen::Index own = 0;                        ///< where its own unknowns begin
+  Eigen::Index size = 0;
+  Eigen::VectorXd f;  ///< rows: the first `size` entries; the bodies' are what this block adds to them
+  Eigen::MatrixXd j;  ///< derivatives: the leading `size` x `size` block
+
+  /// Makes room; does not allocate once the largest size was seen.
+  void set_size(Eigen::Index n) {
+    size = n;
+    if (f.size() >= n) return;
+    f.resize(n);
+    j.resize(n, n);
+  }
+};
+
 /// One step of the geometrically implicit time-stepper as a mixed complementarity problem: Eqs. 10-11 of
 /// Chakraborty, Berard, Akella and Trinkle (2007), for any number of bodies and contacts.
 ///
@@ -23,31 +44,64 @@ class StepProblem final : public MixedComplementarityProblem {
   /// @param scene  must outlive the problem
   explicit StepProblem(const Scene<Dim>& scene);
 
-  /// Sets the step that starts in `state` and lasts h [s], with `contacts` as its possible contacts.
+  /// Sets the step that starts in `state` and lasts h [s], with `contacts` as its possible contacts, for all
+  /// bodies and joints of the scene at once.
   void prepare(std::span<const BodyState<Dim>> state, double h,
                const std::vector<ContactPair<Dim>>& contacts);
+
+  /// Sets the step that starts in `state` and lasts h [s]; its islands are then chosen one after the other.
+  void begin(std::span<const BodyState<Dim>> state, double h);
+  /// Makes this the problem of one island of the step that begin() set.
+  /// @param bodies    indices of moving bodies
+  /// @param joints    indices of the scene's joints, each between bodies of the island or fixed ones
+  /// @param contacts  likewise
+  void select(std::span<const int> bodies, std::span<const int> joints,
+              std::span<const ContactPair<Dim>> contacts);
 
   void set_form(FrictionForm form);
   void set_gap(GapFunction gap) { row_options_.gap = gap; }
   [[nodiscard]] const Scale& scale() const { return row_options_.scale; }
 
   [[nodiscard]] Eigen::Index size() const override { return layout_.size(); }
-  [[nodiscard]] const Eigen::VectorXd& lower() const override { return lower_; }
-  [[nodiscard]] const Eigen::VectorXd& upper() const override { return upper_; }
+  [[nodiscard]] double step_size() const { return row_options_.h; }
+  [[nodiscard]] const Eigen::VectorXd& lower() const override;
+  [[nodiscard]] const Eigen::VectorXd& upper() const override;
   void evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const override;
   [[nodiscard]] std::string row_name(Eigen::Index row) const override;
+
+  // The same rows piece by piece, for whoever eliminates unknowns. z may be longer than size().
+
+  /// M nu' - M nu - p_app - p_vp of a moving body, without contacts and joints, scaled.
+  [[nodiscard]] Twist<Dim> momentum_row(int place, const Eigen::VectorXd& z) const;
+  /// Its derivative by nu': constant during the step.
+  [[nodiscard]] MotionMatrix<Dim> momentum_matrix(int place) const;
+  /// Evaluates contact i at z, for contact_block().
+  void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
+  /// Rows of contact i where it was evaluated last, and their derivatives if asked for.
+  void contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const;
+  /// Rows of joint i of the scene, one of this island, at z.
+  void joint_block(int i, const Eigen::VectorXd& z, bool derivatives, StepBlock<Dim>& block) const;
 
   [[nodiscard]] const StepLayout<Dim>& layout() const { return layout_; }
   [[nodiscard]] const std::vector<ContactPair<Dim>>& contacts() const { return contacts_; }
   [[nodiscard]] const PreparedContact<Dim>& prepared(std::size_t i) const { return prepared_[i]; }
-  [[nodiscard]] int moving_bodies() const { return static_cast<int>(moving_.size()); }
+  /// Of this island.
+  [[nodiscard]] int moving_bodies() const { return static_cast<int>(selected_.size()); }
+  /// Index in the scene of moving body number `place` of this island.
+  [[nodiscard]] int body(int place) const { return moving_[selected_[static_cast<std::size_t>(place)]].body; }
+  [[nodiscard]] std::span<const int> bodies() const { return selected_bodies_; }
+  [[nodiscard]] std::span<const int> joints() const { return selected_joints_; }
 
   /// nu' of a free step: no contact impulse. Entries of z below layout().velocity(moving_bodies()).
   void free_velocity(Eigen::VectorXd& z) const;
-  /// Number of scalar joint constraints; their impulses are the entries of z from layout().joints() on.
-  [[nodiscard]] Eigen::Index joint_row_count() const { return joint_row_count_; }
-  /// What joint i of the scene does at a solution z.
-  [[nodiscard]] JointImpulse<Dim> joint_impulse(std::size_t i, const Eigen::VectorXd& z) const;
+  /// Number of scalar constraints of joint i of the scene.
+  [[nodiscard]] int joint_row_count(int i) const {
+    return static_cast<int>(joints_[static_cast<std::size_t>(i)].rows.size());
+  }
+  /// Where the impulses of joint i of the scene, one of this island, stand in z.
+  [[nodiscard]] Eigen::Index joint_column(int i) const { return joint_column_[static_cast<std::size_t>(i)]; }
+  /// What joint i of the scene, one of this island, does at a solution z.
+  [[nodiscard]] JointImpulse<Dim> joint_impulse(int i, const Eigen::VectorXd& z) const;
 
   /// nu' = nu, the velocities at the start of the step.
   void start_velocity(Eigen::VectorXd& z) const;
@@ -67,7 +121,7 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
     return body_at_end(contacts_[i].body_1, prepared_[i].origin, z).pose.position;
   }
-  /// The bodies' states at the end of the step for a solution z.
+  /// The states of this island's bodies at the end of the step for a solution z; others are left alone.
   void advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const;
   /// Closest point of side k (0: body 1, 1: body 2) at the last z evaluated, relative to prepared(i).origin.
   [[nodiscard]] const Vector<Dim>& point(std::size_t i, std::size_t k) const {
@@ -88,28 +142,33 @@ class StepProblem final : public MixedComplementarityProblem {
 
   void prepare_body(Moving& moving) const;
   void prepare_contact(std::size_t i);
-  void assign_bounds();
+  void assign_bounds() const;
   [[nodiscard]] BodyAtEnd<Dim> body_at_end(int body, const Vector<Dim>& origin,
                                            const Eigen::VectorXd& z) const;
   [[nodiscard]] std::array<BodyAtEnd<Dim>, 2> joint_bodies(const JointRows<Dim>& joint,
                                                            const Eigen::VectorXd& z) const;
   /// Mass of the lighter of two bodies that moves: the unit of impulses between them, over V.
   [[nodiscard]] double lighter_mass(int body_1, int body_2) const;
-  void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
+  void place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const;
   void momentum_rows(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const;
 
   const Scene<Dim>& scene_;
   ContactRowOptions row_options_{};
   std::vector<BodyState<Dim>> start_;
-  std::vector<int> place_;  ///< of a body among those that move; -1 for a fixed one
-  std::vector<Moving> moving_;
-  std::vector<JointRows<Dim>> joints_;
-  Eigen::Index joint_row_count_ = 0;
+  std::vector<Moving> moving_;          ///< all bodies that move
+  std::vector<int> moving_index_;       ///< of a body in moving_; -1 for a fixed one
+  std::vector<JointRows<Dim>> joints_;  ///< all joints
+  std::vector<std::size_t> selected_;   ///< this island's bodies, indices in moving_
+  std::vector<int> place_;              ///< of a body in selected_; -1 for a fixed one; else not meant
+  std::vector<int> selected_bodies_;    ///< the same, indices in the scene
+  std::vector<int> selected_joints_;
+  std::vector<Eigen::Index> joint_column_;
   std::vector<ContactPair<Dim>> contacts_;
   std::vector<PreparedContact<Dim>> prepared_;
   StepLayout<Dim> layout_;
-  Eigen::VectorXd lower_;
-  Eigen::VectorXd upper_;
+  mutable bool bounds_are_set_ = false;  ///< only the full problem's solvers ask for them
+  mutable Eigen::VectorXd lower_;
+  mutable Eigen::VectorXd upper_;
   mutable std::vector<ContactState<Dim>> states_;  ///< workspace of evaluate()
 };
 
