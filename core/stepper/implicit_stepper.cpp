@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/contact/closest_points.h"
+#include "core/contact/patch_middle.h"
 #include "core/model/errors.h"
 
 namespace touchstone {
@@ -132,7 +133,8 @@ void ImplicitStepper<Dim>::collect_candidates() {
 }
 
 /// Warm start first, condensed if allowed; then the full problem from cold, where closest points are those of
-/// the predicted pose; then the other solver.
+/// the predicted pose; then the other solver; then both from the middle of the patches in which bodies lie
+/// flat on each other, because a box that is about to tip may be out of reach from a corner of its base.
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
@@ -149,11 +151,13 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   start_from_memory();
   report = run_solver(first);
   iterations += report.iterations;
-  for (const Solver solver : {first, other}) {
-    if (report.solved()) break;
-    start_cold();
-    report = run_solver(solver);
-    iterations += report.iterations;
+  for (const FindClosest find : {&closest_points<Dim>, &patch_middle<Dim>}) {
+    for (const Solver solver : {first, other}) {
+      if (report.solved()) break;
+      start_cold(find);
+      report = run_solver(solver);
+      iterations += report.iterations;
+    }
   }
   report.iterations = iterations;
   return report;
@@ -193,17 +197,17 @@ void ImplicitStepper<Dim>::start_from_memory() {
     if (warm_start_.knows(island_[i])) {
       recall(i, depth);
     } else {
-      find_points(i);
+      find_points(i, &closest_points<Dim>);
     }
   }
 }
 
 template <int Dim>
-void ImplicitStepper<Dim>::start_cold() {
+void ImplicitStepper<Dim>::start_cold(FindClosest find) {
   z_.head(problem_.size()).setZero();
   problem_.free_velocity(z_);
   problem_.advance(z_, end_);
-  for (std::size_t i = 0; i < island_contacts_.size(); ++i) find_points(i);
+  for (std::size_t i = 0; i < island_contacts_.size(); ++i) find_points(i, find);
 }
 
 template <int Dim>
@@ -220,11 +224,10 @@ void ImplicitStepper<Dim>::recall(std::size_t i, int depth) {
 }
 
 template <int Dim>
-void ImplicitStepper<Dim>::find_points(std::size_t i) {
+void ImplicitStepper<Dim>::find_points(std::size_t i, FindClosest find) {
   const ContactPair<Dim>& contact = island_contacts_[i];
-  const auto closest =
-      closest_points(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
-                     *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
+  const auto closest = find(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
+                            *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
   const Vector<Dim>& origin = problem_.prepared(i).origin;
   const Vector<Dim> a_1 = closest.a_1 - origin;
   const Vector<Dim> a_2 = closest.a_2 - origin;

@@ -4,6 +4,7 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
+#include "core/contact/closest_points.h"
 #include "core/stepper/condensed_newton.h"
 #include "core/stepper/contact_candidates.h"
 #include "core/stepper/islands.h"
@@ -50,13 +51,17 @@ class ImplicitStepper final : public Method<Dim> {
   [[nodiscard]] Eigen::VectorXd solution() const { return z_.head(problem_.size()); }
 
  private:
+  /// closest_points() or patch_middle(): where a contact's points start from.
+  using FindClosest = ClosestPoints<Dim> (*)(const ConvexSurface<Dim>&, const Pose<Dim>&,
+                                             const ConvexSurface<Dim>&, const Pose<Dim>&);
+
   void collect_candidates();
   [[nodiscard]] SolveReport solve_islands(double h);
   void select_island(const Islands::Island& island);
   void start_from_memory();
-  void start_cold();
+  void start_cold(FindClosest find);
   void recall(std::size_t i, int depth);
-  void find_points(std::size_t i);
+  void find_points(std::size_t i, FindClosest find);
   [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
