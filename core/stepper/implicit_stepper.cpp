@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/contact/patch_middle.h"
 #include "core/model/errors.h"
 
 namespace touchstone {
@@ -130,8 +131,9 @@ void ImplicitStepper<Dim>::collect_candidates() {
   contacts_.reserve(active_contacts_.size());
 }
 
-/// The solver asked for, and then the full problem's others; each from the warm start and then from cold,
-/// where closest points are those of the predicted pose.
+/// The solver asked for, from the warm start; then the full problem's, from cold, where closest points are
+/// those of the predicted pose; then from the middle of the patches in which bodies lie flat on each other,
+/// because a box that is about to tip may be out of reach from a corner of its base.
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
@@ -146,18 +148,18 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   }
   const Solver first = options_.solver == Solver::path ? Solver::path : Solver::semismooth;
   const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
-  for (const Solver solver : {first, other}) {
-    for (const bool warm : {true, false}) {
-      if (warm) {
-        start_from_memory();
-      } else {
-        start_cold();
-      }
-      report = run_solver(solver);
-      iterations += report.iterations;
+  const auto attempt = [&](Solver solver) {
+    report = run_solver(solver);
+    iterations += report.iterations;
+  };
+  start_from_memory();
+  attempt(first);
+  for (const FindClosest<Dim> find : {&closest_points<Dim>, &patch_middle<Dim>}) {
+    for (const Solver solver : {first, other}) {
       if (report.solved()) break;
+      start_cold(find);
+      attempt(solver);
     }
-    if (report.solved()) break;
   }
   report.iterations = iterations;
   return report;
@@ -202,10 +204,10 @@ void ImplicitStepper<Dim>::start_from_memory() {
 }
 
 template <int Dim>
-void ImplicitStepper<Dim>::start_cold() {
+void ImplicitStepper<Dim>::start_cold(FindClosest<Dim> find) {
   z_.head(problem_.size()).setZero();
   problem_.free_velocity(z_);
-  for (std::size_t i = 0; i < island_contacts_.size(); ++i) problem_.find_points(i, z_);
+  for (std::size_t i = 0; i < island_contacts_.size(); ++i) problem_.find_points(i, z_, find);
 }
 
 template <int Dim>

@@ -56,7 +56,7 @@ class ImplicitStepper final : public Method<Dim> {
   [[nodiscard]] SolveReport solve_islands(double h);
   void select_island(const Islands::Island& island);
   void start_from_memory();
-  void start_cold();
+  void start_cold(FindClosest<Dim> find);
   void recall(std::size_t i, int depth);
   [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);

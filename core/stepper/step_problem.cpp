@@ -398,12 +398,12 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
 }
 
 template <int Dim>
-void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z) {
+void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
   const ContactPair<Dim>& pair = contacts_[i];
   const Vector<Dim>& origin = prepared_[i].origin;
   const std::array<Pose<Dim>, 2> pose = {body_at_end(pair.body_1, origin, z).pose,
                                          body_at_end(pair.body_2, origin, z).pose};
-  const auto closest = closest_points(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
+  const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
   set_normal_estimate(i, closest.normal);
   set_points(i, closest.a_1, closest.a_2, z);
   set_multipliers(i, pose, closest, z);

@@ -32,6 +32,11 @@ struct StepBlock {
   }
 };
 
+/// A search for the closest points of two bodies, from cold.
+template <int Dim>
+using FindClosest = ClosestPoints<Dim> (*)(const ConvexSurface<Dim>&, const Pose<Dim>&,
+                                           const ConvexSurface<Dim>&, const Pose<Dim>&);
+
 /// Wrenches of a contact's impulses on one body: a column each for y_t (y_o, y_r) and p.
 template <int Dim>
 using ContactWrenches = Eigen::Matrix<double, Dimension<Dim>::velocity, Dimension<Dim>::friction + 1>;
@@ -134,7 +139,8 @@ class StepProblem final : public MixedComplementarityProblem {
   }
   /// Finds the closest points of contact i from cold, at the poses that nu' in z leads to, and writes its
   /// points, multipliers and reference direction.
-  void find_points(std::size_t i, Eigen::VectorXd& z);
+  /// @param find  closest_points() or patch_middle()
+  void find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find = &closest_points<Dim>);
   /// Position of body 1 of contact i at the end of the step, relative to prepared(i).origin.
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
     return body_at_end(contacts_[i].body_1, prepared_[i].origin, z).pose.position;

@@ -50,12 +50,14 @@ class Runner {
         options_(options),
         observer_(observer),
         judge_(method.scene()),
-        ledger_(method.scene(), judge_, method.state()),
         steps_(step_count(options.until, options.h)) {
     every_ = std::max(1L, (steps_ + options.samples - 1) / options.samples);
     run_.samples.reserve(static_cast<std::size_t>(steps_ / every_ + 2));
     for (const double t : options.report) report_steps_.push_back(multiple_of(t, options.h));
     run_.reported.resize(options.report.size());
+    run_.planned_steps = steps_;
+    run_.impulses = method.capabilities().contact_impulses;
+    if (options.ledger || options.keep_steps) ledger_.emplace(method.scene(), judge_, method.state());
     if (!method.capabilities().one_run) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       run_.residual = {none, none, none, none, none};
@@ -70,7 +72,10 @@ class Runner {
       const StepReport report = method_.step(options_.h);
       run_.iterations += report.iterations;
       if (!accept(report, k)) break;
-      if (method_.capabilities().one_run) judge_step();
+      if (method_.capabilities().one_run) {
+        judge_step();
+        book_step();
+      }
       note_estimate();
       observe(k);
     }
@@ -111,9 +116,18 @@ class Runner {
     raise(run_.residual.contact, r.contact);
     raise(run_.residual.friction, r.friction);
     raise(run_.residual.joints, r.joints);
-    if (!options_.keep_steps) return;
-    ledger_.book(options_.h, before_, method_.state(), method_.contacts(), method_.joints());
-    run_.account = ledger_.account();
+  }
+
+  void book_step() {
+    if (!ledger_) return;
+    ledger_->book(options_.h, before_, method_.state(), method_.contacts(), method_.joints());
+    run_.account = ledger_->account();
+  }
+
+  void keep_sample(long k, const Energy& now) {
+    run_.samples.push_back({time_of(k), now});
+    if (options_.states) run_.states.emplace_back(method_.state().begin(), method_.state().end());
+    if (ledger_) run_.accounts.push_back(run_.account);
   }
 
   void keep(long k) {
@@ -140,7 +154,7 @@ class Runner {
     run_.final = now;
     raise(run_.largest_drift_J, std::abs(now.total() - run_.initial.total()));
     raise(run_.largest_penetration, judge_.largest_penetration(method_.state()));
-    if (k % every_ == 0 || k == steps_) run_.samples.push_back({time_of(k), now});
+    if (k % every_ == 0 || k == steps_) keep_sample(k, now);
     for (std::size_t i = 0; i < report_steps_.size(); ++i) {
       if (report_steps_[i] == k) run_.reported[i] = now;
     }
@@ -151,7 +165,7 @@ class Runner {
   const RunOptions& options_;
   const Observer<Dim>& observer_;
   Judge<Dim> judge_;
-  EnergyLedger<Dim> ledger_;
+  std::optional<EnergyLedger<Dim>> ledger_;
   long steps_;
   long every_ = 1;
   std::vector<std::optional<long>> report_steps_;

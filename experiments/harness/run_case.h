@@ -25,7 +25,9 @@ struct RunOptions {
   double until = 1.0;               ///< horizon, a multiple of h [s]
   int samples = 200;                ///< about how many samples of the whole motion to keep
   std::vector<double> report = {};  ///< times whose energy is wanted [s]
-  bool keep_steps = false;          ///< keep every step, and book where its energy went
+  bool states = false;              ///< keep the bodies' states at the samples
+  bool ledger = false;              ///< book where the energy goes, at every step
+  bool keep_steps = false;          ///< keep every step; books as well
 };
 
 /// The time of step k is k h, not a sum of h.
@@ -59,6 +61,10 @@ struct CaseRun {
   CaseStatus status = CaseStatus::ok;
   std::string reason;
   std::vector<Sample> samples;  ///< t = 0, every so many steps, and the last; up to a failure
+  /// Of all bodies at the times of the samples; none unless RunOptions::states.
+  std::vector<std::vector<BodyState<Dim>>> states;
+  /// Since the start, at the times of the samples; none unless energy is booked.
+  std::vector<EnergyAccount> accounts;
   /// At RunOptions::report; none if that is no multiple of h, beyond the horizon or after a failure.
   std::vector<std::optional<Energy>> reported;
   std::vector<BodyState<Dim>> end;  ///< state at the horizon, or before the failed step
@@ -74,10 +80,12 @@ struct CaseRun {
   std::optional<EstimatedError> estimated_end;
   std::optional<EstimatedError> estimated_largest;
   std::vector<KeptStep<Dim>> kept;  ///< t = 0 and every solved step, if they are to be kept
-  EnergyAccount account;            ///< since the start, if the steps are to be kept
-  long steps = 0;                   ///< that were solved
-  long iterations = 0;              ///< as the method tells, over all steps
-  int failed_steps = 0;             ///< 0 or 1: a failed step ends the case
+  bool impulses = false;   ///< whether the method tells its contact impulses; if not, `account` says little
+  EnergyAccount account;   ///< up to the last solved step; zero unless energy is booked
+  long steps = 0;          ///< that were solved
+  long planned_steps = 0;  ///< that make up the horizon
+  long iterations = 0;     ///< as the method tells, over all steps
+  int failed_steps = 0;    ///< 0 or 1: a failed step ends the case
 };
 
 /// Called with the time [s] and the state of all bodies at t = 0 and after every solved step.

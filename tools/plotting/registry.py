@@ -1,8 +1,13 @@
 """The one table of figures: experiment -> figure name -> function of the experiment's directory."""
 
-from . import closed_forms, disc_rolling, disc_rolling_engines, ellipsoid_rolling, sphere_on_spheres, sphere_spin
+from . import box_on_incline, closed_forms, disc_rolling, disc_rolling_engines, ellipsoid_rolling, euler_disc
+from . import rattleback, sphere_on_spheres, sphere_spin, tippe_top
 
 EXPERIMENTS = {
+    "box_on_incline": {
+        "threshold_map": box_on_incline.threshold_map,
+        "wrong_cells": box_on_incline.wrong_cells,
+    },
     "closed_forms": {
         "error": closed_forms.error,
         "order": closed_forms.order,
@@ -30,5 +35,15 @@ EXPERIMENTS = {
         "figure_3": sphere_spin.figure_3,
         "figure_4": sphere_spin.figure_4,
         "errors": sphere_spin.errors,
+    },
+    "euler_disc": {
+        "history": euler_disc.history,
+        "torsion": euler_disc.torsion,
+    },
+    "rattleback": {
+        "history": rattleback.history,
+    },
+    "tippe_top": {
+        "history": tippe_top.history,
     },
 }

@@ -49,7 +49,7 @@ class Rolling {
     // The contact's outward normal is -n, and the support
     // function is even: point(-n) = -point(n), K(-n) = K(n).
     const Support body(rotation, scene_.semi_axes, i.n);
-    i.r = -body.point;
+    i.r = rotation * scene_.center - body.point;
     i.v = -i.omega.cross(i.r);
     i.n_rate = turning(body, i.n, i.omega);
     const Vector3d r_rate = i.omega.cross(i.r) - body.k * (i.n_rate - i.omega.cross(i.n));
@@ -67,11 +67,13 @@ class Rolling {
 
   [[nodiscard]] State start() const {
     const Vector3d n = scene_.normal.normalized();
-    const Support body(scene_.orientation.normalized().toRotationMatrix(), scene_.semi_axes, n);
+    const Matrix3d rotation = scene_.orientation.normalized().toRotationMatrix();
+    const Support body(rotation, scene_.semi_axes, n);
     Vector3d touching(scene_.contact.x(), scene_.contact.y(), 0.0);
     if (scene_.support) touching = scene_.support->center + support_at(n).point;
     State s;
-    s << touching + body.point, scene_.orientation.normalized().coeffs(), n, scene_.omega;
+    s << touching + body.point - rotation * scene_.center, scene_.orientation.normalized().coeffs(), n,
+        scene_.omega;
     return s;
   }
 

@@ -17,7 +17,10 @@ struct FixedEllipsoid {
 struct RollingEllipsoid {
   double mass = 1.0;                                    ///< > 0 [kg]
   Eigen::Vector3d semi_axes = Eigen::Vector3d::Ones();  ///< > 0, along the body's axes [m]
-  /// About the centre, body axes; positive definite [kg m^2]. Need not be diagonal: then it is a rattleback.
+  /// Of the ellipsoid, from the centre of mass, body axes [m].
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  /// About the centre of mass, body axes; positive definite [kg m^2]. Need not be diagonal: then it is a
+  /// rattleback.
   Eigen::Matrix3d inertia = 0.4 * Eigen::Matrix3d::Identity();
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< acceleration [m/s^2]; tilted for an incline
   std::optional<FixedEllipsoid> support;     ///< none: the plane z = 0, solid below
@@ -36,7 +39,7 @@ struct RollingEllipsoid {
 
 struct EllipsoidSample {
   double t = 0.0;
-  Eigen::Vector3d position, velocity, omega;  ///< of the centre; world
+  Eigen::Vector3d position, velocity, omega;  ///< of the centre of mass; world
   Eigen::Quaterniond orientation;
   Eigen::Vector3d normal;         ///< from the support to the ellipsoid
   Eigen::Vector3d contact_point;  ///< on the ellipsoid, world [m]
@@ -63,7 +66,8 @@ struct EllipsoidResult {
 /// is free. Enough Coulomb friction is assumed; see needed_friction().
 ///
 /// With s = sqrt(n.D n), D = R diag(a^2, b^2, c^2) R^T the support function of each body, the ellipsoid's
-/// contact point is at r = -D n / s from its centre. Rolling: v = -omega x r. The normal turns by
+/// contact point is at r = R c - D n / s from its centre of mass, R c leading to its middle. Rolling:
+/// v = -omega x r. The normal turns by
 ///   (K_A + K_B) n' = K_A (omega x n),  K = D/s - D n (D n)^T / s^3,
 /// from equality of the velocities of the contact point along both surfaces (K is the derivative of D
 /// n / s; on the plane n' = 0). Newton and Euler, with the contact force F = m (v' - g) eliminated:

@@ -53,6 +53,13 @@ RollingEllipsoid rattleback() {
   return scene;
 }
 
+/// The same with its centre of mass off its middle, as in a real one.
+RollingEllipsoid loaded_rattleback() {
+  RollingEllipsoid scene = rattleback();
+  scene.center = {0.02, -0.01, 0.15};
+  return scene;
+}
+
 /// Value of the ellipsoid's equation, (p - c).D^-1 (p - c) - 1, and its outward normal at p.
 struct SurfaceCheck {
   double value;
@@ -74,7 +81,8 @@ void expect_rolls(const RollingEllipsoid& scene, double end) {
   for (const EllipsoidSample& s : result.samples) {
     EXPECT_NEAR(s.energy, result.samples.front().energy, 1e-11);
     EXPECT_LT((s.velocity + s.omega.cross(s.contact_point - s.position)).norm(), 1e-14);
-    const SurfaceCheck own = check(s.position, s.orientation, scene.semi_axes, s.contact_point);
+    const SurfaceCheck own =
+        check(s.position + s.orientation * scene.center, s.orientation, scene.semi_axes, s.contact_point);
     EXPECT_NEAR(own.value, 0.0, 1e-13);
     EXPECT_LT((own.normal + s.normal).norm(), 1e-12);
     if (scene.support) {
@@ -92,6 +100,7 @@ TEST(EllipsoidRolling, KeepsEnergyContactAndRolling) {
   expect_rolls(triaxial_on_plane(), 5.0);
   expect_rolls(triaxial_on_triaxial(), 1.2);
   expect_rolls(rattleback(), 5.0);
+  expect_rolls(loaded_rattleback(), 3.0);
 }
 
 void expect_newton_euler(const RollingEllipsoid& scene, double t) {
@@ -118,6 +127,7 @@ TEST(EllipsoidRolling, ObeysNewtonAndEuler) {
     expect_newton_euler(triaxial_on_plane(), t);
     expect_newton_euler(triaxial_on_triaxial(), t);
     expect_newton_euler(rattleback(), t);
+    expect_newton_euler(loaded_rattleback(), t);
   }
 }
 

@@ -81,6 +81,35 @@ TEST(RunCase, GoesToTheHorizonAndKeepsItsAccount) {
   EXPECT_DOUBLE_EQ(run.reported[0]->kinetic, kKinetic);
 }
 
+TEST(RunCase, KeepsStatesAndTheLedgerAtTheSamplesIfAsked) {
+  const auto brake = [](int, BodyState<2>& body) {
+    body.velocity *= 0.9;
+    return StepReport{};
+  };
+  Glider plain(brake);
+  const CaseRun<2> without = run_case(plain, {.h = 0.1, .until = 2, .samples = 4});
+  EXPECT_TRUE(without.states.empty());
+  EXPECT_TRUE(without.accounts.empty());
+  EXPECT_EQ(without.account.drift, 0);
+
+  Glider glider(brake);
+  const CaseRun<2> run =
+      run_case(glider, {.h = 0.1, .until = 2, .samples = 4, .states = true, .ledger = true});
+  EXPECT_EQ(run.planned_steps, 20);
+  EXPECT_TRUE(run.impulses);
+  ASSERT_EQ(run.samples.size(), 5u);
+  ASSERT_EQ(run.states.size(), 5u);
+  ASSERT_EQ(run.accounts.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const double speed = std::pow(0.9, 5 * static_cast<double>(i));
+    EXPECT_NEAR(run.states[i][0].velocity[0], speed, 1e-14);
+    // What no contact took is drift.
+    EXPECT_NEAR(run.accounts[i].drift, kKinetic * (speed * speed - 1), 1e-14);
+    EXPECT_EQ(run.accounts[i].friction_loss, 0);
+  }
+  EXPECT_EQ(run.account.drift, run.accounts.back().drift);
+}
+
 TEST(RunCase, SamplesFromTheStartToTheHorizonAtTimesThatAllStepsShare) {
   Glider coarse;
   Glider fine;
