@@ -54,6 +54,8 @@ Scene<Dim> prepared(Scene<Dim> scene, const Settings& settings) {
 
 template <int Dim>
 std::vector<ContactLaw<Dim>> pair_laws(const ContactGeometry<Dim>& geometry) {
+  if (!geometry.scene().joints.empty())
+    throw Unsupported("joints: this complementarity problem has contacts only");
   std::vector<ContactLaw<Dim>> laws;
   for (const auto& pair : geometry.pairs()) {
     laws.push_back(geometry.scene().law(pair.body_a, pair.body_b));

@@ -184,7 +184,10 @@ void ImplicitStepper<Dim>::start_from_memory() {
     const Eigen::VectorXd& impulses = joint_memory_[static_cast<std::size_t>(joint)];
     z_.segment(problem_.joint_column(joint), impulses.size()) = impulses;
   }
-  const int depth = warm_start_.depth(problem_.bodies(), island_);
+  // Extrapolation brings a start within the tolerance at once, where full Newton steps from the last solution
+  // end far below it: the full problem, which is there to compare with, is to be as exact as it can.
+  const int allowed = options_.solver == ImplicitOptions::Solver::condensed ? WarmStart<Dim>::kDepth : 1;
+  const int depth = std::min(allowed, warm_start_.depth(problem_.bodies(), island_));
   const bool constrained = !island_.empty() || !problem_.joints().empty();
   if (depth > 0 && constrained) {
     for (int place = 0; place < problem_.moving_bodies(); ++place) {
