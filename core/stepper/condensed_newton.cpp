@@ -19,7 +19,7 @@ constexpr double kRestore = 1e-3;        ///< residual of closest points above w
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
-constexpr double kTarget = 0.3;          ///< of the tolerance: where a search that still gains ends
+constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
 constexpr double kChordBelow = 1e-6;
