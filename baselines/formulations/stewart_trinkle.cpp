@@ -282,6 +282,10 @@ bool StewartTrinkle<Dim>::worth_reporting(const ContactImpulse<Dim>& contact, do
 
 template <int Dim>
 std::unique_ptr<Method<Dim>> make_stewart_trinkle(const Scene<Dim>& scene, const Options& options) {
+  if (!scene.joints.empty()) {
+    throw Unsupported(
+        fmt::format("stewart_trinkle: it has no joints, the scene has {}", scene.joints.size()));
+  }
   return std::make_unique<StewartTrinkle<Dim>>(scene, read_settings<Dim>(options));
 }
 

@@ -40,7 +40,8 @@ def measure(program):
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
     for method, microseconds in sorted(medians.items()):
-        table.writerow([method, f"{microseconds:.3g}", f"{microseconds / medians[REFERENCE]:.2g}", processor()])
+        ratio = microseconds / medians[REFERENCE]
+        table.writerow([method, f"{microseconds:.3g}", f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}", processor()])
     return text.getvalue().encode()
 
 
