@@ -67,6 +67,7 @@ double Judge<Dim>::largest_penetration(std::span<const BodyState<Dim>> state) co
   for (std::size_t i = 0; i < state.size(); ++i) {
     for (std::size_t j = i + 1; j < state.size(); ++j) {
       if (scene_.bodies[i].fixed && scene_.bodies[j].fixed) continue;
+      if (scene_.jointed(static_cast<int>(i), static_cast<int>(j))) continue;  // they do not collide
       const auto ball_i = surfaces_[i]->bounding_ball();
       const auto ball_j = surfaces_[j]->bounding_ball();
       const double apart =

@@ -39,7 +39,8 @@ class Judge {
   explicit Judge(const Scene<Dim>& scene);
 
   [[nodiscard]] Energy energy(std::span<const BodyState<Dim>> state) const;
-  /// Depth of the deepest overlap of any two bodies, [m]; 0 if none overlap.
+  /// Depth of the deepest overlap of any two bodies that collide, [m]; 0 if none overlap. Bodies that a joint
+  /// couples do not collide.
   [[nodiscard]] double largest_penetration(std::span<const BodyState<Dim>> state) const;
   /// @param contacts  every contact that carried an impulse in the step; others may be there too
   [[nodiscard]] StepResidual step_residual(std::span<const BodyState<Dim>> before,
