@@ -47,6 +47,10 @@ class ImplicitStepper final : public Method<Dim> {
 
   /// The problem of the last step's last island and its solution, for certificates and tests.
   [[nodiscard]] const StepProblem<Dim>& problem() const { return problem_; }
+  /// What the last step's solution says of contacts()[i], multipliers of both sides included.
+  [[nodiscard]] const ContactSolution<Dim>& contact_solution(std::size_t i) const {
+    return warm_start_.last(i);
+  }
   /// How many islands so far elimination left to the full problem's solvers.
   [[nodiscard]] int fallbacks() const { return fallbacks_; }
   [[nodiscard]] Eigen::VectorXd solution() const { return z_.head(problem_.size()); }

@@ -42,6 +42,11 @@ class WarmStart {
   /// Valid until the next call. The contact is known.
   [[nodiscard]] const ContactSolution<Dim>& contact(std::size_t contact, int depth);
 
+  /// The last accepted solution of contact number i of those that were matched for it.
+  [[nodiscard]] const ContactSolution<Dim>& last(std::size_t contact) const {
+    return traces_[contact].last[0];
+  }
+
   /// Where a step's solution of contact number i is to be written, before accept().
   [[nodiscard]] ContactSolution<Dim>& next(std::size_t contact) { return next_[contact]; }
   /// Makes the solutions written, of the contacts that were matched last, the last ones.

@@ -45,12 +45,12 @@ Answer<Dim> solved(const Scene<Dim>& scene, int steps) {
   answer.contacts.assign(stepper.contacts().begin(), stepper.contacts().end());
   answer.joints.assign(stepper.joints().begin(), stepper.joints().end());
   for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
-    const ContactLayout& at = stepper.problem().layout().contact(i);
-    const ContactPair<Dim>& pair = stepper.problem().contacts()[i];
-    const double* z = stepper.solution().data();
-    answer.multipliers.push_back(
-        {std::vector<double>(z + at.multipliers_1, z + at.multipliers_1 + pair.side_1.multipliers()),
-         std::vector<double>(z + at.multipliers_2, z + at.multipliers_2 + pair.side_2.multipliers())});
+    const std::vector<double>& both = stepper.contact_solution(i).multipliers;
+    const auto& body = scene.bodies[static_cast<std::size_t>(answer.contacts[i].body_a)];
+    const auto surface = make_surface(body.shape);
+    const auto first = make_side(*surface).multipliers();
+    answer.multipliers.push_back({std::vector<double>(both.begin(), both.begin() + first),
+                                  std::vector<double>(both.begin() + first, both.end())});
   }
   return answer;
 }
