@@ -168,9 +168,13 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
   exact_z_ = z_.head(problem_.size());
-  const SolveReport report = solver == ImplicitOptions::Solver::path ? path_.solve(problem_, exact_z_)
-                                                                     : semismooth_.solve(problem_, exact_z_);
+  SolveReport report = solver == ImplicitOptions::Solver::path ? path_.solve(problem_, exact_z_)
+                                                               : semismooth_.solve(problem_, exact_z_);
   z_.head(problem_.size()) = exact_z_;
+  for (std::size_t i = 0; i < island_.size() && report.solved(); ++i) {
+    problem_.evaluate_state(i, z_);
+    if (problem_.is_on_far_side(i)) report.status = SolveStatus::local_minimum;
+  }
   return report;
 }
 

@@ -95,6 +95,12 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] double separation(std::size_t i) const {
     return states_[i].frame.normal.dot(states_[i].separation);
   }
+  /// Whether contact i, where it was evaluated last, is on the far side of body 1: the rows of a smooth side
+  /// ask for N_1 along n only, which its farthest point satisfies as well as its closest one. No solution of
+  /// Eq. 9.
+  [[nodiscard]] bool is_on_far_side(std::size_t i) const {
+    return states_[i].side[0].normal.dot(states_[i].frame.normal) > 0;
+  }
   /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
   /// s].
   [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
