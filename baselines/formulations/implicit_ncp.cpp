@@ -14,7 +14,7 @@ std::unique_ptr<Method<Dim>> make_implicit_ncp(const Scene<Dim>& scene, const Op
   implicit.solver = solver == "condensed" ? Solver::condensed
                     : solver == "path"    ? Solver::path
                                           : Solver::semismooth;
-  implicit.gap = read.choice("gap", "workspace", {"workspace", "distance"}) == "workspace"
+  implicit.gap = read.choice("gap", "distance", {"workspace", "distance"}) == "workspace"
                      ? GapFunction::workspace
                      : GapFunction::distance;
   implicit.tolerance = read.number("tolerance", implicit.tolerance, 1e-15, 1e-3);

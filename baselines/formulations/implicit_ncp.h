@@ -7,8 +7,8 @@
 namespace touchstone {
 
 /// The geometrically implicit time-stepper as a method. Options:
-///   solver=path|semismooth       which solver is tried first
-///   gap=workspace|distance       f(a_2) or the signed distance in the normal complementarity
+///   solver=condensed|path|semismooth  which solver is tried first: closest points eliminated, or the full
+///   problem gap=distance|workspace       the signed distance or f(a_2) in the normal complementarity
 ///   tolerance=1e-13              natural residual at which a step is solved
 ///   max_iterations=100           Newton steps of one attempt
 /// @throws InputError on an unknown or bad option or scene, Unsupported on a scene it cannot represent

@@ -9,14 +9,14 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;           ///< tried before anything else
-constexpr int kRestoringSteps = 40;      ///< tried last
-constexpr int kSweeps = 50;              ///< before those
-constexpr int kUndamped = 8;             ///< of those, before every other one is shortened
-constexpr double kDamping = 0.3;         ///< to this part
-constexpr double kAstray = 1e3;          ///< residual at which a search without a line search is given up
-constexpr double kRestore = 1e-3;        ///< residual of closest points above which they are found anew
-constexpr double kFarSide = 2.0;         ///< |N_1 + n| of closest points on the far side of body 1
+constexpr int kFullSteps = 15;       ///< tried before anything else
+constexpr int kRestoringSteps = 40;  ///< tried last
+constexpr int kSweeps = 50;          ///< before those
+constexpr int kUndamped = 8;         ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;     ///< to this part
+constexpr double kAstray = 1e3;      ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;    ///< residual of closest points above which they are found anew
+constexpr double kSpurious = 2.0;    ///< residual of points that satisfy their rows and are no closest points
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
@@ -216,7 +216,7 @@ void CondensedNewton<Dim>::judge(Element& element, std::size_t i, Eigen::VectorX
     take_geometry(block.f[r], in_z.point_1 + r - block.own);
   for (Eigen::Index r = block.at.friction; r < block.at.normal; ++r)
     take(block.f[r], in_z.point_1 + r - block.own);
-  if (problem_->is_on_far_side(i)) take_geometry(kFarSide, in_z.point_1);
+  if (problem_->is_spurious(i)) take_geometry(kSpurious, in_z.point_1);
   const double p = z[in_z.normal];
   const double gap = block.f[block.at.normal];
   account(std::min(p, gap), in_z.normal);

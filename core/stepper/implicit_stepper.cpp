@@ -142,6 +142,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   if (options_.solver == Solver::condensed) {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
+    accept_rounding(report);
     if (report.solved() || problem_.size() > kLargestDense) return report;
     ++fallbacks_;
     iterations += report.iterations;
@@ -152,17 +153,24 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     report = run_solver(solver);
     iterations += report.iterations;
   };
-  start_from_memory();
-  attempt(first);
-  for (const FindClosest<Dim> find : {&closest_points<Dim>, &patch_middle<Dim>}) {
-    for (const Solver solver : {first, other}) {
+  for (const Solver solver : {first, other}) {
+    start_from_memory();
+    attempt(solver);
+    for (const FindClosest<Dim> find : {&closest_points<Dim>, &patch_middle<Dim>}) {
       if (report.solved()) break;
       start_cold(find);
       attempt(solver);
     }
+    if (report.solved()) break;
   }
   report.iterations = iterations;
   return report;
+}
+
+/// A search that ended, for whatever reason, so near to a solution that rounding is what is left.
+template <int Dim>
+void ImplicitStepper<Dim>::accept_rounding(SolveReport& report) {
+  if (report.residual <= ImplicitOptions::kAcceptable) report.status = SolveStatus::solved;
 }
 
 template <int Dim>
@@ -171,9 +179,10 @@ SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
   SolveReport report = solver == ImplicitOptions::Solver::path ? path_.solve(problem_, exact_z_)
                                                                : semismooth_.solve(problem_, exact_z_);
   z_.head(problem_.size()) = exact_z_;
+  accept_rounding(report);
   for (std::size_t i = 0; i < island_.size() && report.solved(); ++i) {
     problem_.evaluate_state(i, z_);
-    if (problem_.is_on_far_side(i)) report.status = SolveStatus::local_minimum;
+    if (problem_.is_spurious(i)) report.status = SolveStatus::local_minimum;
   }
   return report;
 }

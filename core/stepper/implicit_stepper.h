@@ -20,9 +20,15 @@ struct ImplicitOptions {
   };
 
   Solver solver = Solver::condensed;
-  GapFunction gap = GapFunction::workspace;
-  /// A step is solved if the natural residual of its problem is at most this; > 0, in StepProblem's units.
+  /// f(a_2) of Eq. 6 does not see a body that is through a half-space by more than its own height, since a_2
+  /// is then outside it again; the signed distance does, and is therefore the default.
+  GapFunction gap = GapFunction::distance;
+  /// A search ends where the natural residual of the step's problem is at most this; > 0, in StepProblem's
+  /// units.
   double tolerance = 1e-13;
+  /// Where rounding keeps a search from the tolerance (mass ratios of 1e4, say) a step is solved if the
+  /// residual is at most this, or at most the tolerance if that is larger.
+  static constexpr double kAcceptable = 1e-11;
   int max_iterations = 100;  ///< Newton steps of one attempt; >= 1
 };
 
@@ -63,6 +69,7 @@ class ImplicitStepper final : public Method<Dim> {
   void start_cold(FindClosest<Dim> find);
   void recall(std::size_t i, int depth);
   [[nodiscard]] SolveReport solve_island();
+  static void accept_rounding(SolveReport& report);
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
   void accept();

@@ -314,6 +314,14 @@ std::array<int, 2> StepProblem<Dim>::places(std::size_t i) const {
 }
 
 template <int Dim>
+bool StepProblem<Dim>::is_spurious(std::size_t i) const {
+  constexpr double kThrough = 1e-6;  // of L; overlap that no tolerance explains
+  const ContactState<Dim>& state = states_[i];
+  return state.side[0].normal.dot(state.frame.normal) > 0 ||
+         (state.p <= 0 && separation(i) < -kThrough * row_options_.scale.length);
+}
+
+template <int Dim>
 ContactWrenches<Dim> StepProblem<Dim>::unit_wrenches(std::size_t i, std::size_t k) const {
   constexpr int kAngular = Dimension<Dim>::angular;
   constexpr int kFriction = Dimension<Dim>::friction;

@@ -95,12 +95,11 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] double separation(std::size_t i) const {
     return states_[i].frame.normal.dot(states_[i].separation);
   }
-  /// Whether contact i, where it was evaluated last, is on the far side of body 1: the rows of a smooth side
-  /// ask for N_1 along n only, which its farthest point satisfies as well as its closest one. No solution of
-  /// Eq. 9.
-  [[nodiscard]] bool is_on_far_side(std::size_t i) const {
-    return states_[i].side[0].normal.dot(states_[i].frame.normal) > 0;
-  }
+  /// Whether the closest points of contact i, where it was evaluated last, satisfy the rows and are none:
+  /// - those of a smooth side ask for N_1 along n only, which its farthest point satisfies too (Eq. 9 does
+  /// not);
+  /// - f(a_2) >= 0 (Eq. 6) holds of a body that is through another one, since a_2 is then outside again.
+  [[nodiscard]] bool is_spurious(std::size_t i) const;
   /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
   /// s].
   [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
