@@ -27,7 +27,7 @@ enum class Condition {
   unit_quaternion,   ///< |q'| = 1
   joint,             ///< anchors, axes and orientations together
   frame,             ///< n, t, o orthonormal; t along the law's direction where e_t != e_o
-  surface,           ///< max_i f_i(a) = 0 for both points, Eqs. 8 and 20
+  surface,           ///< max_i f_i(a) = 0 for both points, Eqs. 9 and 20
   opposite,          ///< a_1 - a_2 along n
   normal,            ///< -n and n in the normal cones of body 1 at a_1 and of body 2 at a_2, Eqs. 9, 20-22
   multipliers,       ///< l >= 0, l_i f_i = 0, for those that the answer tells

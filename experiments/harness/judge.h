@@ -24,8 +24,8 @@ struct Energy {
 struct StepResidual {
   double dynamics = 0.0;    ///< M nu' - M nu - sum W p - p_app - p_vp
   double kinematics = 0.0;  ///< q' - q (+) h nu'
-  double contact = 0.0;  ///< Eqs. 6, 9, 20-22: points on their surfaces, opposite, along both normals, 0 <=
-                         ///< p_n _|_ psi >= 0, nothing overlaps
+  double contact = 0.0;   ///< Eqs. 6, 9, 20-22: points on their surfaces, opposite, along both normals, 0 <=
+                          ///< p_n _|_ psi >= 0, nothing overlaps
   double joints = 0.0;    ///< by how much the joints' anchors, axes and orientations have come apart
   double friction = 0.0;  ///< Eq. 5 as printed (Fritz-John), with sigma the least that its rows allow
   [[nodiscard]] double largest() const;
