@@ -92,7 +92,7 @@ TEST_P(MotionExperiment, RefusesBadInputWithExitCodeTwo) {
     EXPECT_EQ(finished.code, 2) << words[0] << ' ' << words[1];
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
   }
-  EXPECT_EQ(test::listing(scratch / "out"), "");
+  EXPECT_EQ(test::listing(scratch.path()), "") << "nothing is written";
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, MotionExperiment, testing::ValuesIn(kPrograms),
