@@ -100,8 +100,9 @@ IsolatedResult call(const std::function<std::string()>& work) {
   }
 }
 
-[[noreturn]] void be_child(const std::function<std::string()>& work, int answer) {
+[[noreturn]] void be_child(const std::function<std::string()>& work, int answer, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(EXIT_FAILURE);  // it ended before the line above
   constexpr rlimit kNoCoreFile{0, 0};
   setrlimit(RLIMIT_CORE, &kNoCoreFile);
   const IsolatedResult result = call(work);
@@ -179,11 +180,12 @@ IsolatedResult run_isolated(const std::function<std::string()>& work, std::chron
   if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) throw_errno("pipe2");
   FileDescriptor answer(ends[0]);
   FileDescriptor child_answer(ends[1]);
+  const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0) throw_errno("fork");
   if (pid == 0) {
     fcntl(ends[1], F_SETFL, 0);  // the child may wait for its reader
-    be_child(work, ends[1]);
+    be_child(work, ends[1], parent);
   }
   Child child(pid);
   if (child.ended() < 0) throw_errno("pidfd_open");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "baselines/engines/engines.h"
+#include "baselines/formulations/extrapolated.h"
 #include "baselines/formulations/implicit_ncp.h"
 #include "baselines/formulations/stewart_trinkle.h"
 #include "core/model/errors.h"
@@ -24,9 +25,16 @@ constexpr std::array kFormulations = {
     MethodEntry<Dim>{"implicit_ncp",
                      "Geometrically implicit NCP time-stepper (Chakraborty et al. 2007, Eqs. 10-11)",
                      &make_implicit_ncp<Dim>, &no_library},
+    MethodEntry<Dim>{
+        "implicit_ncp_extrapolated",
+        "implicit_ncp at h and h/2, run side by side and combined (Richardson), with an error estimate",
+        &make_extrapolated<Dim, &make_implicit_ncp<Dim>>, &no_library},
     MethodEntry<Dim>{"stewart_trinkle",
                      "LCP time-stepper, linearised gaps, friction pyramid (Stewart & Trinkle 1996)",
                      &make_stewart_trinkle<Dim>, &no_library},
+    MethodEntry<Dim>{"stewart_trinkle_extrapolated",
+                     "stewart_trinkle at h and h/2, run side by side and combined (Richardson): a control",
+                     &make_extrapolated<Dim, &make_stewart_trinkle<Dim>>, &no_library},
 };
 
 template <int Dim>
@@ -58,9 +66,9 @@ std::span<const MethodEntry<Dim>> methods() {
 }
 
 template <int Dim>
-const MethodEntry<Dim>& find_method(std::string_view key) {
+const MethodEntry<Dim>& find_method(std::string_view key, std::span<const MethodEntry<Dim>> table) {
   std::vector<std::string_view> known;
-  for (const auto& entry : methods<Dim>()) {
+  for (const auto& entry : table) {
     if (entry.key == key) return entry;
     known.push_back(entry.key);
   }
@@ -69,7 +77,7 @@ const MethodEntry<Dim>& find_method(std::string_view key) {
 
 template std::span<const MethodEntry<2>> methods<2>();
 template std::span<const MethodEntry<3>> methods<3>();
-template const MethodEntry<2>& find_method<2>(std::string_view);
-template const MethodEntry<3>& find_method<3>(std::string_view);
+template const MethodEntry<2>& find_method<2>(std::string_view, std::span<const MethodEntry<2>>);
+template const MethodEntry<3>& find_method<3>(std::string_view, std::span<const MethodEntry<3>>);
 
 }  // namespace touchstone

@@ -24,8 +24,10 @@ struct MethodEntry {
 template <int Dim>
 std::span<const MethodEntry<Dim>> methods();
 
+/// @param table  this build's methods, or those of a test
 /// @throws InputError listing the known keys if there is no method `key`
 template <int Dim>
-const MethodEntry<Dim>& find_method(std::string_view key);
+const MethodEntry<Dim>& find_method(std::string_view key,
+                                    std::span<const MethodEntry<Dim>> table = methods<Dim>());
 
 }  // namespace touchstone

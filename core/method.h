@@ -49,9 +49,21 @@ struct JointImpulse {
   Twist<Dim> on_b = Twist<Dim>::Zero();
 };
 
+/// By how much a method itself takes the state of one body to be off.
+template <int Dim>
+struct StateError {
+  Vector<Dim> position = Vector<Dim>::Zero();  ///< [m]
+  Angular<Dim> turn = Angular<Dim>::Zero();    ///< rotation vector about world axes [rad]
+  Twist<Dim> velocity = Twist<Dim>::Zero();    ///< [m/s, rad/s]
+};
+
 /// What a method can represent; a conformance test checks that each claim is true.
 struct Capabilities {
-  bool contact_impulses = true;  ///< contacts() tells what acted in the last step
+  bool contact_impulses =
+      true;  ///< contacts() tells what acted in the last step, and accounts for the momentum
+  /// state() after a step is the end of one step from state() before it. False where it is made of several
+  /// runs: then equations of a step, Eqs. 10-11 among them, hold for each of those and not for state().
+  bool one_run = true;
   bool torsional_friction = false;
   bool anisotropic_friction = false;
   bool restitution = false;
@@ -75,6 +87,9 @@ class Method {
   [[nodiscard]] virtual std::span<const ContactImpulse<Dim>> contacts() const = 0;
   /// The joints' impulses of the last step; none from a method without joints or one that does not tell.
   [[nodiscard]] virtual std::span<const JointImpulse<Dim>> joints() const { return {}; }
+  /// By how much state() is estimated to be off, one entry a body, fixed ones included; none from a method
+  /// without an estimate.
+  [[nodiscard]] virtual std::span<const StateError<Dim>> error_estimate() const { return {}; }
   /// Advances by h [s], h > 0. If it is not solved the state is as it was.
   [[nodiscard]] virtual StepReport step(double h) = 0;
   /// Every option with the value in force, defaults included.

@@ -5,40 +5,44 @@
 // N))^2. Source: Example 1 and Fig. 1 of Chakraborty, Berard, Akella and Trinkle, "An implicit time-stepping
 // method for multibody systems with intermittent contact" (2007): (a) over N at h = 0.01 s, (b) over h at N =
 // 1000. Expected: the two curves cross at omega h = 2 pi / N, which at N = 1000 is h = 0.002 s: the "limit"
-// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N.
+// of Fig. 1(b). With the nearest vertex as the only candidate the loss is not even monotone in N. Every
+// engine is run beside them on the disc and on N-gons. A rigid polygon loses energy at its corners whoever
+// simulates it, so a method is judged by what it loses beyond the exact, event-driven polygon; as h falls
+// that is expected to vanish for rigid contacts in double precision.
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 
+#include "experiments/disc_rolling_rows.h"
 #include "experiments/harness/experiment.h"
 #include "experiments/harness/method_case.h"
-#include "experiments/harness/record.h"
 #include "experiments/scenarios/disc_rolling.h"
-#include "experiments/scenarios/disc_rolling_truths.h"
 
 namespace {
 
 using namespace touchstone;
 using namespace touchstone::harness;
 
+using namespace touchstone::disc_rolling;
+
 constexpr const char* kScenario = "disc_rolling";
 constexpr double kStepOfEdgesSweep = 0.01;  // [s]
 constexpr int kEdgesOfStepSweep = 1000;
+constexpr int kEngineSamples = 40;       ///< of a case of the sweep `engines`
 constexpr double kStepOfCheck = 0.0002;  // [s]; far below 2 pi / (N omega), where only the edges limit
-constexpr double kUntilOfCheck = 2.0;    // [s]
-constexpr int kSamples = 200;
-const std::vector<double> kReportTimes = {1, 2, 5, 10};  // [s]
-const DiscRolling kDisc;
 
-/// One place in a sweep: what is run and compared there.
-struct Point {
-  std::string sweep;
-  int edges = 0;
-  double h = 0.0;
-  double until = 0.0;
-};
+/// The points of the sweep `engines`: fine steps over as long as kMostEngineSteps take.
+std::vector<Point> engine_points(const Selection& selection) {
+  std::vector<Point> points;
+  for (const int edges : selection.integers("engine-edges")) {
+    for (const double h : selection.numbers("engine-step-sizes")) {
+      const double until = std::min(selection.until, static_cast<double>(kMostEngineSteps) * h);
+      points.push_back({"engines", edges, h, until});
+    }
+  }
+  return points;
+}
 
 std::vector<Point> points(const Selection& selection) {
   std::vector<Point> points;
@@ -51,6 +55,8 @@ std::vector<Point> points(const Selection& selection) {
       for (const double h : selection.numbers("step-sizes")) {
         points.push_back({sweep, kEdgesOfStepSweep, h, selection.until});
       }
+    } else if (sweep == "engines") {
+      for (const Point& point : engine_points(selection)) points.push_back(point);
     } else {
       points.push_back({sweep, kEdgesOfStepSweep, kStepOfCheck, std::min(kUntilOfCheck, selection.until)});
     }
@@ -60,155 +66,14 @@ std::vector<Point> points(const Selection& selection) {
   return points;
 }
 
-/// A column of the report times: kinetic_5s_J.
-std::string report_column(const std::string& quantity, double t) {
-  return quantity + "_" + number_cell(t) + "s_J";
-}
-
-std::vector<std::string> summary_columns() {
-  std::vector<std::string> columns;
-  const auto add_reports = [&](const std::string& quantity) {
-    for (const double t : kReportTimes) columns.push_back(report_column(quantity, t));
-  };
-  const auto add = [&](std::initializer_list<const char*> names) {
-    columns.insert(columns.end(), names.begin(), names.end());
-  };
-  add_reports("kinetic");
-  add({"loss_J", "relative_energy_loss", "polygon_loss_J", "linearisation_loss_J", "rest_loss_J",
-       "relative_energy_drift", "largest_penetration_m", "largest_residual", "dynamics_residual",
-       "kinematics_residual", "contact_residual", "friction_residual", "steps", "iterations", "failed_steps",
-       "end_x_m", "end_y_m", "end_angle_rad"});
-  add_reports("exact_polygon");
-  add({"polygon_reason", "polygon_departure", "polygon_departure_s"});
-  add_reports("edge_limited");
-  add_reports("step_limited");
-  return columns;
-}
-
-const std::vector<std::string> kSummary = summary_columns();
-const std::vector<std::string> kCurve = {"t_s", "kinetic_J", "total_J"};
-
-// --- truths
-
-std::vector<double> sample_times(double until) {
-  std::vector<double> times;
-  for (int k = 0; k <= kSamples; ++k) times.push_back(until * k / kSamples);
+/// Every time that a case of these points may ask a truth for.
+std::vector<double> truth_times(const std::vector<Point>& points) {
+  std::vector<double> times = kReportTimes;
+  for (const Point& point : points) {
+    const std::vector<double> samples = sample_times(point);
+    times.insert(times.end(), samples.begin(), samples.end());
+  }
   return times;
-}
-
-/// Every time that a case with this horizon may ask a truth for.
-std::vector<double> truth_times(double until) {
-  std::vector<double> times = sample_times(until);
-  const std::vector<double> check = sample_times(std::min(until, kUntilOfCheck));
-  times.insert(times.end(), check.begin(), check.end());
-  times.insert(times.end(), kReportTimes.begin(), kReportTimes.end());
-  return times;
-}
-
-/// By number of edges.
-using ExactPolygons = std::map<int, ExactPolygon>;
-
-/// The curve that stands under `key` in --methods, or none if that is no truth.
-std::optional<EnergyCurve> truth_curve(const std::string& key, const Point& point,
-                                       const ExactPolygons& truths) {
-  if (key == "exact_polygon") return [&polygon = truths.at(point.edges)](double t) { return polygon.at(t); };
-  if (key == "edge_limited") return edge_limited(kDisc, point.edges);
-  if (key == "step_limited") return step_limited(kDisc, point.h);
-  return std::nullopt;
-}
-
-// --- rows
-
-void set_reports(Record& record, const std::string& quantity, double until, const EnergyCurve& curve) {
-  for (const double t : kReportTimes) {
-    const std::optional<Energy> energy = t <= until ? curve(t) : std::nullopt;
-    if (energy) record.set(report_column(quantity, t), energy->kinetic);
-  }
-}
-
-void set_loss(Record& record, double loss) {
-  record.set("loss_J", loss).set("relative_energy_loss", loss / kDisc.kinetic_energy());
-}
-
-void set_closed_forms(Record& record, const Point& point, bool polygon) {
-  set_reports(record, "step_limited", point.until, step_limited(kDisc, point.h));
-  if (polygon) set_reports(record, "edge_limited", point.until, edge_limited(kDisc, point.edges));
-}
-
-void set_polygon_truth(Record& record, const Point& point, const ExactPolygon& polygon) {
-  set_reports(record, "exact_polygon", point.until, [&](double t) { return polygon.at(t); });
-  record.set("polygon_reason", polygon.result().reason);
-  if (const auto& departure = polygon.result().first_departure) {
-    record.set("polygon_departure", truth::to_string(departure->kind))
-        .set("polygon_departure_s", departure->t);
-  }
-}
-
-/// Takes the loss up to the horizon apart. Total energies are compared, because the kinetic energy of a
-/// polygon swings by m g R (1 - cos(pi/N)) within an edge; less m g R they are what is kinetic when a vertex
-/// is straight down.
-void set_split(Record& record, const Point& point, const ExactPolygon& polygon, double loss) {
-  const std::optional<Energy> start = polygon.at(0.0);
-  const std::optional<Energy> end = polygon.at(point.until);
-  if (!start || !end) return;
-  const double of_polygon = start->total() - end->total();
-  const double kept_by_polygon = end->total() - rest_potential(kDisc);
-  const double kept_at_floor = step_limited(kDisc, point.h)(point.until)->kinetic;
-  // What the floor takes beyond the polygon's own loss; nothing where the polygon loses more.
-  const double of_linearisation = std::max(0.0, kept_by_polygon - kept_at_floor);
-  record.set("polygon_loss_J", of_polygon).set("linearisation_loss_J", of_linearisation);
-  record.set("rest_loss_J", loss - of_polygon - of_linearisation);
-}
-
-void set_account(Record& record, const CaseRun<2>& run) {
-  record.set("relative_energy_drift", run.largest_drift_J / run.initial.kinetic);
-  record.set("largest_penetration_m", run.largest_penetration)
-      .set("largest_residual", run.residual.largest());
-  record.set("dynamics_residual", run.residual.dynamics).set("kinematics_residual", run.residual.kinematics);
-  record.set("contact_residual", run.residual.contact).set("friction_residual", run.residual.friction);
-  record.set("steps", run.steps).set("iterations", run.iterations).set("failed_steps", run.failed_steps);
-  const Pose<2>& end = run.end.front().pose;
-  record.set("end_x_m", end.position.x())
-      .set("end_y_m", end.position.y())
-      .set("end_angle_rad", end.rotation.angle());
-}
-
-/// Rows of a method's case. @param polygon  null if the method rolls the disc itself
-std::vector<std::vector<Row>> method_rows(const CaseRun<2>& run, const Point& point,
-                                          const ExactPolygon* polygon) {
-  Record summary(kSummary);
-  for (std::size_t i = 0; i < kReportTimes.size(); ++i) {
-    if (run.reported[i]) summary.set(report_column("kinetic", kReportTimes[i]), run.reported[i]->kinetic);
-  }
-  set_account(summary, run);
-  set_closed_forms(summary, point, polygon != nullptr);
-  if (polygon != nullptr) set_polygon_truth(summary, point, *polygon);
-  if (run.status == CaseStatus::ok) {
-    const double loss = run.initial.total() - run.final.total();
-    set_loss(summary, loss);
-    if (polygon != nullptr) set_split(summary, point, *polygon, loss);
-  }
-  std::vector<Row> curve;
-  for (const Sample& sample : run.samples) {
-    curve.push_back(
-        {number_cell(sample.t_s), number_cell(sample.energy.kinetic), number_cell(sample.energy.total())});
-  }
-  return {{summary.row()}, curve};
-}
-
-/// Rows of a truth, in the same form.
-CaseResult truth_result(const EnergyCurve& truth, const Point& point) {
-  Record summary(kSummary);
-  set_reports(summary, "kinetic", point.until, truth);
-  const std::optional<Energy> start = truth(0.0);
-  const std::optional<Energy> end = truth(point.until);
-  if (start && end) set_loss(summary, start->total() - end->total());
-  std::vector<Row> curve;
-  for (const double t : sample_times(point.until)) {
-    const std::optional<Energy> energy = truth(t);
-    if (energy) curve.push_back({number_cell(t), number_cell(energy->kinetic), number_cell(energy->total())});
-  }
-  return {CaseStatus::ok, "", {{summary.row()}, curve}};
 }
 
 // --- cases
@@ -220,8 +85,9 @@ class CaseList {
       : selection_(selection),
         points_(points(selection)),
         scene_(std::make_shared<Scene<2>>(disc_rolling_scene())) {
+    const std::vector<double> times = truth_times(points_);
     for (const Point& point : points_) {
-      truths_->try_emplace(point.edges, kDisc, point.edges, truth_times(selection.until));
+      if (point.edges > 0) truths_->try_emplace(point.edges, kDisc, point.edges, times);
     }
   }
 
@@ -232,13 +98,15 @@ class CaseList {
 
  private:
   void add_method(const MethodSpec& method) {
-    if (truth_curve(method.key, points_.front(), *truths_)) {
-      add_truth(method);
-    } else if (options_in_force(*scene_, method).contains("edges")) {
+    if (is_truth(method.key)) return add_truth(method);
+    const Options options = options_in_force(*scene_, method);
+    const bool is_engine = !find_method<2>(method.key).version().empty();
+    if (!is_engine && options.contains("candidates")) {
       add_polygon_method(method);
-    } else {
+    } else if (!is_engine) {
       add_disc_method(method);
     }
+    add_to_engines_sweep(method, options);
   }
 
   /// `h_s` of a truth is that of the cases that it stands beside, whether it depends on it or not.
@@ -246,6 +114,7 @@ class CaseList {
     if (!method.options.empty())
       throw InputError("--methods", fmt::format("'{}'", format_method(method)), "no options: it is a truth");
     for (const Point& point : points_) {
+      if (point.edges == 0) continue;
       Case one;
       one.id = {kScenario, method.key, "", {point.sweep, number_cell(long{point.edges}), ""},
                 point.h,   point.until};
@@ -260,6 +129,7 @@ class CaseList {
   /// A method that makes a polygon of the disc: at every point, with every policy.
   void add_polygon_method(const MethodSpec& method) {
     for (const Point& point : points_) {
+      if (point.sweep == "engines") continue;
       for (const std::string& policy : selection_.texts("candidates")) {
         if (point.sweep == "check" && policy != selection_.texts("candidates").front()) continue;
         MethodSpec spec = method;
@@ -276,11 +146,24 @@ class CaseList {
     std::vector<std::pair<std::string, double>> seen;
     for (const Point& point : points_) {
       const std::pair<std::string, double> place = {point.sweep, point.h};
-      if (point.sweep == "check" || std::find(seen.begin(), seen.end(), place) != seen.end()) continue;
+      const bool elsewhere = point.sweep == "check" || point.sweep == "engines";
+      if (elsewhere || std::find(seen.begin(), seen.end(), place) != seen.end()) continue;
       seen.push_back(place);
       for (const MethodSpec& variant : variants(method, point.sweep)) {
         add_case(variant, point, {point.sweep, "", ""}, 1.0, false);
       }
+    }
+  }
+
+  /// Every method as it comes, on the disc and on each polygon that it can make of it.
+  void add_to_engines_sweep(const MethodSpec& method, const Options& options) {
+    for (const Point& point : points_) {
+      if (point.sweep != "engines" || (point.edges > 0 && !options.contains("edges"))) continue;
+      MethodSpec spec = method;
+      if (point.edges > 0) spec.options.insert({"edges", std::to_string(point.edges)});
+      const std::string edges = point.edges > 0 ? std::to_string(point.edges) : "";
+      const double cost_of_step = method.key.starts_with("simbody") ? 20.0 : 1.0;  // as measured
+      add_case(spec, point, {point.sweep, edges, ""}, cost_of_step, point.edges > 0);
     }
   }
 
@@ -304,7 +187,7 @@ class CaseList {
     spec.scene = scene_;
     spec.method = method;
     spec.sweep = std::move(sweep);
-    spec.run = {.h = point.h, .until = point.until, .samples = kSamples, .report = kReportTimes};
+    spec.run = {.h = point.h, .until = point.until, .samples = samples_of(point), .report = kReportTimes};
     spec.cost_of_step = cost_of_step;
     spec.tabulate = [point, is_polygon, truths = truths_](const CaseRun<2>& run) {
       return method_rows(run, point, is_polygon ? &truths->at(point.edges) : nullptr);
@@ -319,6 +202,18 @@ class CaseList {
   std::vector<Case> cases_;
 };
 
+/// Ours, the truths, and every engine of this build.
+std::vector<std::string> default_methods() {
+  std::vector<std::string> keys = {"implicit_ncp", "stewart_trinkle", "exact_polygon", "edge_limited",
+                                   "step_limited"};
+  for (const MethodEntry<2>& entry : methods<2>()) {
+    if (!entry.version().empty()) keys.emplace_back(entry.key);
+    // Stiffer friction beside it, which is what its polygon of 30 edges lacks.
+    if (entry.key == "mujoco_elliptic_stiff") keys.emplace_back("mujoco_elliptic_stiff:impratio=100");
+  }
+  return keys;
+}
+
 CommandLineSpec command_line() {
   return {
       .name = "disc_rolling",
@@ -329,7 +224,7 @@ CommandLineSpec command_line() {
           "  disc_rolling --quick --out /tmp/quick          a first look\n"
           "  disc_rolling --sweeps edges --edges 10,100     one sweep with two of its values\n"
           "  disc_rolling --methods implicit_ncp:gap=distance,edge_limited --list\n",
-      .methods = {"implicit_ncp", "stewart_trinkle", "exact_polygon", "edge_limited", "step_limited"},
+      .methods = default_methods(),
       .axes = {{"edges",
                 "edges N of the polygon, sweep (a) at h = 0.01 s",
                 AxisKind::integer,
@@ -347,12 +242,23 @@ CommandLineSpec command_line() {
                 {"reachable", "all", "nearest:1", "nearest:2", "epsilon:0.01"},
                 {"reachable", "all", "nearest:1"}},
                {"sweeps",
-                "which sweeps: edges, step_size, check",
+                "which sweeps: edges, step_size, check, engines",
                 AxisKind::text,
-                {"edges", "step_size", "check"},
-                {"edges", "step_size", "check"},
+                {"edges", "step_size", "check", "engines"},
+                {"edges", "step_size", "check", "engines"},
                 1,
-                {"edges", "step_size", "check"}}},
+                {"edges", "step_size", "check", "engines"}},
+               {"engine-edges",
+                "edges N, sweep of all methods; 0: the disc itself",
+                AxisKind::integer,
+                {"0", "30", "100", "1000"},
+                {"0", "100"},
+                0},
+               {"engine-step-sizes",
+                "step sizes h [s], sweep of all methods; 10,000 steps at most",
+                AxisKind::positive,
+                {"0.01", "0.001", "0.0001", "0.00002"},
+                {"0.01"}}},
       .until = 10.0,
       .quick_until = 1.0};
 }
@@ -363,7 +269,7 @@ int main(int argc, char** argv) {
   const Experiment experiment = {
       .command_line = command_line(),
       .sweep_columns = {"sweep", "edges", "candidates"},
-      .tables = {{"summary", kSummary}, {"kinetic_energy", kCurve}},
+      .tables = {{"summary", summary_columns()}, {"kinetic_energy", curve_columns()}},
       .seed = std::nullopt,
       .cases = [](const Selection& selection) { return CaseList(selection).take(); }};
   return run_experiment(experiment, argc, argv);

@@ -36,7 +36,7 @@ const std::vector<std::string> kHistory = {"t_s",
                                            "total_J",
                                            "friction_loss_J",
                                            "impact_loss_J",
-                                           "drift_J"};
+                                           "energy_drift_J"};
 
 EulerDiscScene scene_of(const std::string& variant) {
   EulerDiscScene scene;
@@ -70,7 +70,7 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
     row.set("t_s", sample.t_s).set("inclination_rad", motion.inclination);
     row.set("contact_spin_rad_s", motion.contact_spin).set("center_speed_m_s", motion.center_speed);
     row.set("total_J", sample.energy.total()).set("friction_loss_J", account.friction_loss);
-    row.set("impact_loss_J", account.impact_loss).set("drift_J", account.drift);
+    row.set("impact_loss_J", account.impact_loss).set("energy_drift_J", account.drift);
     if (rolls(motion) && flat < 0) {
       const double steady = scene.disc.precession(motion.inclination);
       row.set("precession_rad_s", motion.precession).set("steady_precession_rad_s", steady);

@@ -25,7 +25,7 @@ const std::vector<std::string> kSummary =
     with_account({"start_spin_rad_s", "end_spin_rad_s", "reversals", "reversal_s", "truth_reversals",
                   "truth_reversal_s", "reversal_error_s", "truth_end_spin_rad_s", "truth_needed_mu"});
 const std::vector<std::string> kHistory = {
-    "t_s", "spin_rad_s", "roll_rad_s", "pitch_rad_s", "truth_spin_rad_s", "total_J", "drift_J"};
+    "t_s", "spin_rad_s", "roll_rad_s", "pitch_rad_s", "truth_spin_rad_s", "total_J", "energy_drift_J"};
 
 Rattleback back_of(const std::string& variant) {
   Rattleback back;
@@ -80,7 +80,7 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
     row.set("t_s", times[i]).set("spin_rad_s", spins[i]);
     row.set("roll_rad_s", omega_body.x()).set("pitch_rad_s", omega_body.y());
     if (i < truth.spins.size()) row.set("truth_spin_rad_s", truth.spins[i]);
-    row.set("total_J", run.samples[i].energy.total()).set("drift_J", run.accounts[i].drift);
+    row.set("total_J", run.samples[i].energy.total()).set("energy_drift_J", run.accounts[i].drift);
     history.push_back(row.row());
   }
   Record summary(kSummary);

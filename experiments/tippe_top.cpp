@@ -25,7 +25,7 @@ const std::vector<std::string> kSummary =
                   "jellett_kg_m2_s", "largest_jellett_drift", "jellett_drift_1s", "center_rise_m"});
 const std::vector<std::string> kHistory = {
     "t_s",     "inclination_rad", "spin_vertical_rad_s", "spin_axis_rad_s", "slip_m_s", "jellett_kg_m2_s",
-    "total_J", "kinetic_J",       "friction_loss_J",     "drift_J"};
+    "total_J", "kinetic_J",       "friction_loss_J",     "energy_drift_J"};
 
 TippeTop top_of(const std::string& variant) {
   TippeTop top;
@@ -52,7 +52,7 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
     row.set("spin_axis_rad_s", omega.dot(state.pose.rotation.matrix().col(2)));
     row.set("slip_m_s", top.slip(state)).set("jellett_kg_m2_s", jellett);
     row.set("total_J", run.samples[i].energy.total()).set("kinetic_J", run.samples[i].energy.kinetic);
-    row.set("friction_loss_J", run.accounts[i].friction_loss).set("drift_J", run.accounts[i].drift);
+    row.set("friction_loss_J", run.accounts[i].friction_loss).set("energy_drift_J", run.accounts[i].drift);
     history.push_back(row.row());
     steepest = std::max(steepest, inclination);
     drift = std::max(drift, std::abs(jellett / constant - 1));

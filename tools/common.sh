@@ -9,7 +9,9 @@ export CCACHE_BASEDIR="$ROOT" CCACHE_NOHASHDIR=1
 
 # Programs that run an experiment, build/PRESET/experiments/NAME each; adding an experiment adds its name here.
 # shellcheck disable=SC2034  # used by the scripts that source this file
-readonly EXPERIMENTS=(box_on_incline disc_rolling euler_disc rattleback tippe_top)
+readonly EXPERIMENTS=(
+  box_on_incline closed_forms disc_rolling ellipsoid_rolling euler_disc rattleback sphere_on_spheres sphere_spin tippe_top
+)
 
 # fail CODE MESSAGE...: a message for a person on stderr, then exit CODE.
 fail() {
@@ -44,4 +46,24 @@ program() {
   local path=$ROOT/build/release/$1
   [[ -x $path ]] || fail 2 "$path is not built; run: tools/test --only release"
   echo "$path"
+}
+
+# run_experiment NAME ARGUMENT...: runs it. A case that failed (exit code 1) is a row of its results, and the claims say
+# which must not; anything else that goes wrong ends the script.
+run_experiment() {
+  local name=$1 code=0
+  shift
+  "$(program "experiments/$name")" "$@" || code=$?
+  ((code <= 1)) || return "$code"
+  ((code == 0)) || echo "$name: some cases failed; their rows say why"
+}
+
+# capability_matrix FILE: what the conformance tests find of every method, one test a line only if it fails.
+capability_matrix() {
+  mkdir -p "$(dirname "$1")"
+  "$(program tests/conformance/conformance_test)" --gtest_brief=1 --matrix "$1" >"$1.log" || {
+    cat "$1.log"
+    return 1
+  }
+  rm "$1.log"
 }

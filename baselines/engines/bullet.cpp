@@ -55,6 +55,7 @@ std::unique_ptr<Engine<3>> load_float(const Scene<3>& scene, OptionReader& read,
 }
 
 std::string version() { return bullet_version(); }
+std::string float_version() { return bullet_float_version(); }
 
 constexpr Capabilities kIterative{.contact_impulses = true, .torsional_friction = true, .restitution = true};
 constexpr Capabilities kMlcp{.contact_impulses = true, .torsional_friction = false, .restitution = true};
@@ -74,14 +75,14 @@ constexpr MethodEntry<2> kPlanar[] = {
     {kNncg.key, kNncgText, &make_planar<kNncg>, &version},
     {kPgs.key, kPgsText, &make_planar<kPgs>, &version},
     {kSi.key, kSiText, &make_planar<kSi>, &version},
-    {kFloat.key, kFloatText, &make_planar<kFloat>, &version},
+    {kFloat.key, kFloatText, &make_planar<kFloat>, &float_version},
 };
 constexpr MethodEntry<3> kSpatial[] = {
     {kDantzig.key, kDantzigText, &make_spatial<kDantzig>, &version},
     {kNncg.key, kNncgText, &make_spatial<kNncg>, &version},
     {kPgs.key, kPgsText, &make_spatial<kPgs>, &version},
     {kSi.key, kSiText, &make_spatial<kSi>, &version},
-    {kFloat.key, kFloatText, &make_spatial<kFloat>, &version},
+    {kFloat.key, kFloatText, &make_spatial<kFloat>, &float_version},
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
+#include <memory>
 #include <system_error>
 
 #include "baselines/engines/bullet_float_messages.h"
@@ -96,7 +98,22 @@ class BulletFloatProcess final : public Engine<3> {
   BulletFloatStepped result_;
 };
 
+/// The line that the server prints.
+std::string asked_version() {
+  const std::unique_ptr<FILE, int (*)(FILE*)> server(
+      popen("'" TOUCHSTONE_BULLET_FLOAT_SERVER "' version", "r"), &pclose);
+  char line[64] = {};
+  if (server == nullptr || std::fgets(line, sizeof line, server.get()) == nullptr) return "unknown";
+  const std::string text = line;
+  return text.substr(0, text.find('\n'));
+}
+
 }  // namespace
+
+std::string bullet_float_version() {
+  static const std::string version = asked_version();
+  return version;
+}
 
 std::unique_ptr<Engine<3>> make_bullet_float_process(const Scene<3>& scene, const BulletSettings& settings,
                                                      Motion motion) {

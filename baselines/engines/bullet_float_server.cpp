@@ -1,5 +1,7 @@
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "baselines/engines/bullet_float_messages.h"
@@ -66,7 +68,14 @@ void serve() {
 
 }  // namespace touchstone::engines
 
-int main() {
+/// With the argument `version` prints the library's and ends.
+int main(int argc, char**) {
+  if (argc > 1) {
+    std::puts(touchstone::engines::bullet_version().c_str());
+    return 0;
+  }
+  // While a step takes for ever nobody looks whether the other end is still there.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   try {
     touchstone::engines::serve();
   } catch (const std::exception&) {

@@ -1,5 +1,6 @@
 # The engines: one .cpp each, added if its library is there. Box2D, Bullet and ODE are required; the others are found
-# if installed. An engine's absence is told at configuration and leaves its methods out of the table.
+# if installed and wanted. An engine's absence is told at configuration and leaves its methods out of the table.
+option(TOUCHSTONE_OPTIONAL_ENGINES "Look for MuJoCo, Chipmunk, DART, Siconos and Simbody" ON)
 set(engines_dir ${CMAKE_CURRENT_LIST_DIR})
 find_package(PkgConfig REQUIRED)
 
@@ -19,9 +20,26 @@ function(touchstone_engine name source)
   string(TOUPPER ${name} upper)
   target_sources(touchstone_baselines PRIVATE ${engines_dir}/${source})
   target_link_libraries(touchstone_baselines PRIVATE ${ARGN})
-  target_compile_definitions(touchstone_baselines PRIVATE TOUCHSTONE_HAS_${upper}=1)
+  set_property(SOURCE ${engines_dir}/engines.cpp TARGET_DIRECTORY touchstone_baselines
+    APPEND PROPERTY COMPILE_DEFINITIONS TOUCHSTONE_HAS_${upper}=1)
   message(STATUS "Engine ${name}: yes")
 endfunction()
+
+# find_engine_package(<package> <argument>...): find_package, quietly. What a search that failed leaves in the cache is
+# removed, or parts that were missing would stay so after they are installed. A macro, for find_package sets variables.
+macro(find_engine_package package)
+  get_cmake_property(known_before CACHE_VARIABLES)
+  find_package(${package} ${ARGN} QUIET)
+  if(NOT ${package}_FOUND)
+    get_cmake_property(known_after CACHE_VARIABLES)
+    set(of_package ${known_after})
+    list(FILTER of_package INCLUDE REGEX "^${package}_")
+    list(REMOVE_ITEM known_after ${known_before})
+    foreach(variable IN LISTS known_after of_package)
+      unset(${variable} CACHE)
+    endforeach()
+  endif()
+endmacro()
 
 find_package(box2d CONFIG REQUIRED)
 touchstone_engine(box2d box2d.cpp box2d::box2d)
@@ -54,7 +72,12 @@ touchstone_engine(ode ode.cpp PkgConfig::TOUCHSTONE_ODE)
 set_source_files_properties(${engines_dir}/ode.cpp TARGET_DIRECTORY touchstone_baselines
   PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_ODE_VERSION="${TOUCHSTONE_ODE_VERSION}")
 
-find_package(mujoco CONFIG QUIET)
+if(NOT TOUCHSTONE_OPTIONAL_ENGINES)
+  message(STATUS "Engines mujoco, chipmunk, dart, siconos, simbody: not wanted")
+  return()
+endif()
+
+find_engine_package(mujoco CONFIG)
 if(mujoco_FOUND)
   # Debian's file names an include folder that is not there; the headers are in the compiler's own.
   set_target_properties(mujoco::mujoco PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")
@@ -76,7 +99,7 @@ else()
 endif()
 
 # DART's file wants its parts' development packages too; without one of them it counts as not installed.
-find_package(DART 6 CONFIG QUIET COMPONENTS collision-ode)
+find_engine_package(DART 6 CONFIG COMPONENTS collision-ode)
 if(DART_FOUND AND TARGET dart AND TARGET dart-collision-ode)
   touchstone_engine(dart dart.cpp dart dart-collision-ode)
   target_sources(touchstone_baselines PRIVATE ${engines_dir}/dart_materials.cpp)
@@ -104,7 +127,7 @@ else()
   message(STATUS "Engine siconos: not installed")
 endif()
 
-find_package(Simbody CONFIG QUIET)
+find_engine_package(Simbody CONFIG)
 if(Simbody_FOUND AND TARGET SimTKsimbody)
   # Its headers do not compile as C++20 (operator== of its index types), so the part that includes them is C++17.
   add_library(touchstone_simbody OBJECT ${engines_dir}/simbody_world.cpp)

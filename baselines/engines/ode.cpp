@@ -90,6 +90,7 @@ class OdeWorld final : public Engine<3> {
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
     contact_group_ = dJointGroupCreate(0);
+    use_own_threading();
     configure();
     try {
       for (std::size_t i = 0; i < scene_.bodies.size(); ++i) add_body(static_cast<int>(i));
@@ -146,6 +147,13 @@ class OdeWorld final : public Engine<3> {
   }
 
  private:
+  /// Worlds share one global implementation unless told otherwise, and then must not step at the same time.
+  void use_own_threading() {
+    threading_ = dThreadingAllocateSelfThreadedImplementation();
+    dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_),
+                                         threading_);
+  }
+
   void configure() {
     dWorldSetGravity(world_, scene_.gravity.x(), scene_.gravity.y(), scene_.gravity.z());
     dWorldSetERP(world_, settings_.erp);
@@ -162,6 +170,7 @@ class OdeWorld final : public Engine<3> {
     dJointGroupDestroy(contact_group_);
     dSpaceDestroy(space_);
     dWorldDestroy(world_);
+    dThreadingFreeImplementation(threading_);
   }
 
   void add_body(int index) {
@@ -334,6 +343,7 @@ class OdeWorld final : public Engine<3> {
   const Settings settings_;
   const Motion motion_;
   dWorldID world_ = nullptr;
+  dThreadingImplementationID threading_ = nullptr;
   dSpaceID space_ = nullptr;
   dJointGroupID contact_group_ = nullptr;
   std::vector<dBodyID> bodies_;  ///< null for a fixed body

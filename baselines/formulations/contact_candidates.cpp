@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-
+#include "core/contact/closest_points.h"
 #include "core/model/errors.h"
 
 namespace touchstone {
@@ -28,6 +27,32 @@ bool is_ball(const Shape<Dim>& shape) {
 template <int Dim>
 bool is_ellipsoid(const Shape<Dim>& shape) {
   return geometry_as<Dim, Ellipsoid<Dim>>(shape) != nullptr;
+}
+
+/// Smooth, and without a straight line on its surface: two such bodies touch at one point. A capsule is
+/// smooth and has lines.
+template <int Dim>
+bool is_round(const Shape<Dim>& shape) {
+  return is_ball(shape) || is_ellipsoid(shape) || geometry_as<Dim, Superellipsoid<Dim>>(shape) != nullptr;
+}
+
+template <int Dim>
+bool is_capsule(const Shape<Dim>& shape) {
+  if constexpr (Dim == 3) return geometry_as<3, Capsule>(shape) != nullptr;
+  return false;
+}
+
+/// Whether the closest points are unique, `b` being the half-space if one of the two is.
+template <int Dim>
+bool is_smooth_pair(const Shape<Dim>& a, const Shape<Dim>& b) {
+  if (is_half_space(b)) return is_round(a);
+  return (is_round(a) && (is_round(b) || is_capsule(b))) || (is_capsule(a) && is_round(b));
+}
+
+template <int Dim>
+bool has_closed_form(const Shape<Dim>& a, const Shape<Dim>& b) {
+  if (is_half_space(b)) return is_ball(a) || is_ellipsoid(a);
+  return is_ball(a) && is_ball(b);
 }
 
 template <int Dim>
@@ -91,24 +116,18 @@ std::vector<Vector<Dim>> vertices_of(const Shape<Dim>& shape) {
   return result;
 }
 
-}  // namespace
-
+/// Of a pair that has_closed_form().
 template <int Dim>
-bool has_closest_points(const Shape<Dim>& a, const Shape<Dim>& b) {
-  if (is_half_space(b)) return is_ball(a) || is_ellipsoid(a);
-  return is_ball(a) && is_ball(b);
-}
-
-template <int Dim>
-ContactPoints<Dim> closest_points(const Shape<Dim>& a, const Pose<Dim>& pose_a, const Shape<Dim>& b,
-                                  const Pose<Dim>& pose_b) {
-  assert(has_closest_points(a, b));
+ContactPoints<Dim> closed_form(const Shape<Dim>& a, const Pose<Dim>& pose_a, const Shape<Dim>& b,
+                               const Pose<Dim>& pose_b) {
   if (!is_half_space(b)) return between_balls(a, pose_a, b, pose_b);
   const WorldPlane<Dim> plane = world_plane(b, pose_b);
   const Vector<Dim> point = farthest_point<Dim>(a, pose_a, -plane.normal);
   const double gap = plane.gap(point);
   return {point, point - gap * plane.normal, plane.normal, gap};
 }
+
+}  // namespace
 
 template <int Dim>
 ContactGeometry<Dim>::ContactGeometry(const Scene<Dim>& scene) : scene_(&scene) {
@@ -117,19 +136,28 @@ ContactGeometry<Dim>::ContactGeometry(const Scene<Dim>& scene) : scene_(&scene) 
   const auto add_pair = [&](std::size_t a, std::size_t b) {
     if (is_half_space(bodies[a].shape)) std::swap(a, b);
     const bool by_vertices = !vertices_[a].empty() && is_half_space(bodies[b].shape) && bodies[b].fixed;
-    if (!by_vertices && !has_closest_points(bodies[a].shape, bodies[b].shape)) {
+    if (!by_vertices && !is_smooth_pair(bodies[a].shape, bodies[b].shape)) {
       throw Unsupported(fmt::format(
           "no contact candidates for a {} ('{}') and a {}{} ('{}'): known are shapes with vertices above a "
-          "fixed half_space, discs, spheres and ellipsoids above any half_space, and discs or spheres "
-          "between themselves",
+          "fixed half_space, and smooth bodies that touch at one point: discs or spheres, ellipses or "
+          "ellipsoids and superellipsoids, above any half_space, between themselves and beside capsules",
           shape_name(bodies[a].shape), bodies[a].name, bodies[b].fixed ? "fixed " : "",
           shape_name(bodies[b].shape), bodies[b].name));
     }
-    pairs_.push_back({static_cast<int>(a), static_cast<int>(b), by_vertices});
+    pairs_.push_back({static_cast<int>(a), static_cast<int>(b), by_vertices,
+                      has_closed_form(bodies[a].shape, bodies[b].shape)});
   };
   for (std::size_t a = 0; a < bodies.size(); ++a) {
     for (std::size_t b = a + 1; b < bodies.size(); ++b) {
       if (!bodies[a].fixed || !bodies[b].fixed) add_pair(a, b);
+    }
+  }
+  surfaces_.resize(bodies.size());
+  for (const ContactPair& pair : pairs_) {
+    if (pair.by_vertices || pair.closed_form) continue;
+    for (const int body : {pair.body_a, pair.body_b}) {
+      auto& surface = surfaces_[static_cast<std::size_t>(body)];
+      if (!surface) surface = make_surface(bodies[static_cast<std::size_t>(body)].shape);
     }
   }
 }
@@ -157,13 +185,13 @@ ContactPoints<Dim> ContactGeometry<Dim>::points(const ContactPair& pair, int ver
   if (vertex != ContactCandidate<Dim>::no_vertex) return vertices_above(pair, state)[vertex];
   const auto a = static_cast<std::size_t>(pair.body_a);
   const auto b = static_cast<std::size_t>(pair.body_b);
-  return closest_points(scene_->bodies[a].shape, state[a].pose, scene_->bodies[b].shape, state[b].pose);
+  if (pair.closed_form)
+    return closed_form(scene_->bodies[a].shape, state[a].pose, scene_->bodies[b].shape, state[b].pose);
+  const ClosestPoints<Dim> closest =
+      closest_points(*surfaces_[a], state[a].pose, *surfaces_[b], state[b].pose);
+  return {closest.a_1, closest.a_2, closest.normal, closest.gap, closest.converged};
 }
 
-template bool has_closest_points(const Shape<2>&, const Shape<2>&);
-template bool has_closest_points(const Shape<3>&, const Shape<3>&);
-template ContactPoints<2> closest_points(const Shape<2>&, const Pose<2>&, const Shape<2>&, const Pose<2>&);
-template ContactPoints<3> closest_points(const Shape<3>&, const Pose<3>&, const Shape<3>&, const Pose<3>&);
 template class ContactGeometry<2>;
 template class ContactGeometry<3>;
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/model/scene.h"
+#include "core/surfaces/convex_surface.h"
 
 /// Where two bodies may come to touch, for formulations that freeze the contact geometry at the start of a
 /// step.
@@ -18,6 +20,7 @@ struct ContactPoints {
   Vector<Dim> point_b = Vector<Dim>::Zero();  ///< [m]
   Vector<Dim> normal = Vector<Dim>::Zero();   ///< unit, from body B into body A
   double gap = 0.0;                           ///< psi = normal . (point_a - point_b), > 0 when apart [m]
+  bool exact = true;  ///< false: a search for them ended without an answer; these are the best it has
 };
 
 /// A half-space in the world: normal . x <= offset is solid.
@@ -29,22 +32,12 @@ struct WorldPlane {
   [[nodiscard]] double gap(const Vector<Dim>& point) const { return normal.dot(point) - offset; }
 };
 
-/// Whether closest_points() knows this pair of shapes, in this order.
-template <int Dim>
-bool has_closest_points(const Shape<Dim>& a, const Shape<Dim>& b);
-
-/// The closest points of two smooth bodies in closed form: a ball or an ellipsoid above a half-space, two
-/// balls. The only place that knows a distance between smooth bodies; a general distance query can take its
-/// place. Precondition: has_closest_points(a, b).
-template <int Dim>
-ContactPoints<Dim> closest_points(const Shape<Dim>& a, const Pose<Dim>& pose_a, const Shape<Dim>& b,
-                                  const Pose<Dim>& pose_b);
-
 /// Two bodies that can touch. If one of them is a half-space it is B.
 struct ContactPair {
   int body_a = 0;
   int body_b = 0;
   bool by_vertices = false;  ///< A has vertices and B is a fixed half-space: a candidate a vertex of A
+  bool closed_form = false;  ///< two balls, or a ball or an ellipsoid above a half-space
 };
 
 /// One possible contact of a pair: a vertex of A against the half-space B, or the closest points of two
@@ -85,6 +78,10 @@ class VerticesAbove {
 
 /// What a scene's bodies are to contact: vertices or smooth, and the pairs of them that can touch. Keeps a
 /// reference to the scene.
+///
+/// Smooth pairs are those whose closest points are unique wherever the bodies stand: of balls, ellipsoids and
+/// superellipsoids among themselves, above half-spaces and beside capsules. Their points come in closed form
+/// or from the query of core/contact/closest_points.h.
 template <int Dim>
 class ContactGeometry {
  public:
@@ -107,6 +104,7 @@ class ContactGeometry {
  private:
   const Scene<Dim>* scene_;
   std::vector<std::vector<Vector<Dim>>> vertices_;  // by body, in its frame; none of a smooth body
+  std::vector<std::shared_ptr<const ConvexSurface<Dim>>> surfaces_;  // by body; where a query needs one
   std::vector<ContactPair> pairs_;
 };
 

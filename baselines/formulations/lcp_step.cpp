@@ -1,6 +1,7 @@
 #include "baselines/formulations/lcp_step.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/contact/frame.h"
@@ -39,9 +40,20 @@ TangentBasis<Dim> contact_tangents(const Vector<Dim>& normal, const ContactLaw<D
 }
 
 template <int Dim>
-void LcpStep<Dim>::reserve(int candidates) {
+void LcpStep<Dim>::reserve(int candidates, std::span<const FrictionPyramid<Dim>> pyramids) {
   contacts_.reserve(index(candidates));
   contact_of_candidate_.reserve(index(candidates));
+  contact_of_row_.reserve(index(kReservedRows));
+  // The fewest contacts whose rows make up n, for each n: contacts of different pairs may differ in rows.
+  std::array<int, kReservedRows + 1> contacts{};
+  for (int n = 1; n <= kReservedRows; ++n) {
+    contacts[index(n)] = candidates + 1;
+    for (const auto& pyramid : pyramids) {
+      const Index rows = rows_of(pyramid);
+      if (rows <= n) contacts[index(n)] = std::min(contacts[index(n)], contacts[index(n - rows)] + 1);
+    }
+    if (contacts[index(n)] <= candidates) workspaces_[n].reserve(n);
+  }
 }
 
 template <int Dim>

@@ -79,8 +79,13 @@ class LcpStep final : private ColumnSource {
     double residual = 0.0;
   };
 
-  /// Makes room for so many candidates at once.
-  void reserve(int candidates);
+  /// Makes room for so many candidates at once, and for working sets of up to kReservedRows rows: their steps
+  /// allocate nothing. A larger one does when its size is met for the first time.
+  /// @param pyramids  of all pairs
+  void reserve(int candidates, std::span<const FrictionPyramid<Dim>> pyramids);
+
+  /// Rows of 25 contacts in the plane, and of 10 with the default pyramid in space.
+  static constexpr int kReservedRows = 100;
 
   /// @param velocity  out: nu' by body. Meaningless unless solved
   [[nodiscard]] Report solve(const LcpStepData<Dim>& data, Candidates candidates,
@@ -111,6 +116,11 @@ class LcpStep final : private ColumnSource {
   struct Workspace {
     LinearPath path;
     Eigen::VectorXd rows, cover, z;
+
+    void reserve(Eigen::Index n) {
+      path.reserve(n);
+      for (Eigen::VectorXd* v : {&rows, &cover, &z}) v->resize(n);
+    }
   };
 
   static std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }

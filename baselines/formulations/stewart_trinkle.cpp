@@ -54,6 +54,8 @@ Scene<Dim> prepared(Scene<Dim> scene, const Settings& settings) {
 
 template <int Dim>
 std::vector<ContactLaw<Dim>> pair_laws(const ContactGeometry<Dim>& geometry) {
+  if (!geometry.scene().joints.empty())
+    throw Unsupported("joints: this complementarity problem has contacts only");
   std::vector<ContactLaw<Dim>> laws;
   for (const auto& pair : geometry.pairs()) {
     laws.push_back(geometry.scene().law(pair.body_a, pair.body_b));
@@ -119,7 +121,7 @@ class StewartTrinkle final : public Method<Dim> {
     const auto most = static_cast<std::size_t>(geometry_.candidate_count());
     candidates_.reserve(most);
     contacts_.reserve(most);
-    lcp_.reserve(static_cast<int>(most));
+    lcp_.reserve(static_cast<int>(most), pyramids_);
   }
   StewartTrinkle(const StewartTrinkle&) = delete;  // geometry_ refers to scene_
   StewartTrinkle& operator=(const StewartTrinkle&) = delete;
@@ -139,6 +141,9 @@ class StewartTrinkle final : public Method<Dim> {
     if (!(h > 0) || !std::isfinite(h)) throw InputError("step size h", h, "a finite number > 0 [s]");
     predict_free_velocities(h);
     selection_.select(state_, free_, h, candidates_);
+    const bool known = std::all_of(candidates_.begin(), candidates_.end(),
+                                   [](const auto& candidate) { return candidate.points.exact; });
+    if (!known) return {StepStatus::not_converged, 0, 0.0, "closest points of two bodies were not found"};
     const auto solution = lcp_.solve(data(h), candidates_, next_);
     const StepReport report = judge(solution);
     if (report.status != StepStatus::solved) return report;
@@ -277,6 +282,10 @@ bool StewartTrinkle<Dim>::worth_reporting(const ContactImpulse<Dim>& contact, do
 
 template <int Dim>
 std::unique_ptr<Method<Dim>> make_stewart_trinkle(const Scene<Dim>& scene, const Options& options) {
+  if (!scene.joints.empty()) {
+    throw Unsupported(
+        fmt::format("stewart_trinkle: it has no joints, the scene has {}", scene.joints.size()));
+  }
   return std::make_unique<StewartTrinkle<Dim>>(scene, read_settings<Dim>(options));
 }
 

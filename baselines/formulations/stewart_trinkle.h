@@ -18,7 +18,7 @@ namespace touchstone {
 ///   pyramid      space: d, sides of the friction pyramid, even, >= 4 (default 8)
 ///   pyramid_fit  space: inscribed (default) | circumscribed, see friction_pyramid.h
 /// @throws InputError on a bad or unknown option, Unsupported on pairs of shapes without contact candidates
-///         (contact_candidates.h) and on restitution
+///         (contact_candidates.h) on restitution and on joints
 template <int Dim>
 std::unique_ptr<Method<Dim>> make_stewart_trinkle(const Scene<Dim>& scene, const Options& options);
 

@@ -18,6 +18,11 @@ constexpr Index smallest_capacity = 32;
 }  // namespace
 
 void BasisCore::reserve(Index k) {
+  make_room(k);
+  static_cast<void>(lu_.matrix(k));
+}
+
+void BasisCore::make_room(Index k) {
   if (k <= matrix_.rows()) return;
   const Index capacity = std::max({k, 2 * matrix_.rows(), smallest_capacity});
   matrix_.conservativeResize(capacity, capacity);
@@ -27,7 +32,7 @@ void BasisCore::reserve(Index k) {
 }
 
 void BasisCore::resize(Index k) {
-  reserve(k);
+  make_room(k);
   k_ = k;
   factors_ = Factors::none;
 }
@@ -98,7 +103,7 @@ void BasisCore::append(const Eigen::VectorXd& b, const Eigen::VectorXd& a, doubl
                        const Eigen::VectorXd& solved) {
   [[maybe_unused]] const bool regular = prepare_inverse();
   assert(regular);
-  reserve(k_ + 1);
+  make_room(k_ + 1);
   const Index k = k_;
   row_product_.head(k).noalias() = inverse_.topLeftCorner(k, k).transpose() * a.head(k);
   const double schur = corner - a.head(k).dot(solved.head(k));

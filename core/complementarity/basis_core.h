@@ -17,6 +17,8 @@ namespace touchstone {
 /// breaking a tie asks for.
 class BasisCore {
  public:
+  /// Makes room for a core of k x k and its factors.
+  void reserve(Eigen::Index k);
   /// Makes the core k x k, to be filled through entry(); forgets all factors.
   void resize(Eigen::Index k);
   [[nodiscard]] Eigen::Index size() const { return k_; }
@@ -43,7 +45,7 @@ class BasisCore {
   void replace_row(Eigen::Index row, const Eigen::VectorXd& a);
 
  private:
-  void reserve(Eigen::Index k);
+  void make_room(Eigen::Index k);
   [[nodiscard]] bool prepare_inverse();
   [[nodiscard]] bool invert();
   [[nodiscard]] bool multiply_and_check(const Eigen::VectorXd& b, Eigen::VectorXd& x);

@@ -6,6 +6,14 @@ namespace touchstone {
 
 using Eigen::Index;
 
+void ColumnCache::reserve(Index n) {
+  const auto columns = static_cast<std::size_t>(n);
+  if (slots_.size() < columns) slots_.resize(columns);
+  for (Eigen::VectorXd& values : slots_) values.resize(n);
+  slot_of_column_.reserve(columns);
+  free_slots_.reserve(slots_.size());
+}
+
 void ColumnCache::bind(const Eigen::MatrixXd& matrix) {
   assert(matrix.rows() == matrix.cols());
   size_ = matrix.rows();

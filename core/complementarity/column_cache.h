@@ -12,6 +12,8 @@ namespace touchstone {
 /// bound. Slots are kept for the next problem, so a repeated solve allocates nothing.
 class ColumnCache {
  public:
+  /// Makes room for every column of a matrix of size n.
+  void reserve(Eigen::Index n);
   void bind(const Eigen::MatrixXd& matrix);
   void bind(const ColumnSource& source);
 

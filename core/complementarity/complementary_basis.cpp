@@ -8,18 +8,31 @@ namespace touchstone {
 using Eigen::Index;
 using Kind = PathVariable::Kind;
 
+void ComplementaryBasis::reserve(Index n) {
+  set_size(n);
+  q_.resize(n);
+  origin_.resize(n);
+  for (std::vector<Index>* list : {&column_position_, &row_position_, &partner_}) list->reserve(at(n + 1));
+  domain_.reserve(at(n));
+  columns_.reserve(n);
+  core_.reserve(n + 1);
+}
+
+void ComplementaryBasis::set_size(Index n) {
+  if (n == n_ && z_.size() == n) return;
+  for (Eigen::VectorXd* v : {&cover_, &base_, &z_, &s_, &dz_, &ds_}) v->setZero(n);
+  const Index core = n + 1;
+  for (Eigen::VectorXd* v : {&entering_column_, &solved_, &row_, &probe_column_, &probe_}) v->resize(core);
+  for (std::vector<Index>* list : {&basic_columns_, &rows_, &all_columns_, &all_rows_})
+    list->reserve(at(core));
+  n_ = n;
+}
+
 void ComplementaryBasis::bind_vectors(const Eigen::VectorXd& q, const Eigen::VectorXd& lower,
                                       const Eigen::VectorXd& upper, const Eigen::VectorXd& origin) {
   const Index n = columns_.size();
   assert(q.size() == n && lower.size() == n && upper.size() == n && origin.size() == n);
-  if (n != n_ || z_.size() != n) {
-    for (Eigen::VectorXd* v : {&cover_, &base_, &z_, &s_, &dz_, &ds_}) v->setZero(n);
-    const Index core = n + 1;
-    for (Eigen::VectorXd* v : {&entering_column_, &solved_, &row_, &probe_column_, &probe_}) v->resize(core);
-    for (std::vector<Index>* list : {&basic_columns_, &rows_, &all_columns_, &all_rows_})
-      list->reserve(at(core));
-    n_ = n;
-  }
+  set_size(n);
   lower_ = &lower;
   upper_ = &upper;
   q_ = q;

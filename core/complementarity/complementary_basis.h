@@ -34,6 +34,9 @@ enum class SlackDomain : std::uint8_t {
 /// direction costs O(n k + k^2), a change of basis O(k^2).
 class ComplementaryBasis {
  public:
+  /// Makes room for n unknowns and any basis of them, of columns from a ColumnSource too.
+  void reserve(Eigen::Index n);
+
   // -- Start --
   /// Binds the data, which must outlive the use; q and origin are copied. All unknowns are to be rested or
   /// entered next.
@@ -105,6 +108,7 @@ class ComplementaryBasis {
 
  private:
   static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+  void set_size(Eigen::Index n);
   void bind_vectors(const Eigen::VectorXd& q, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                     const Eigen::VectorXd& origin);
   void rest(Eigen::Index i, double value, double slack, SlackDomain domain);

@@ -84,13 +84,22 @@ LinearPathResult LinearPath::follow(const Eigen::MatrixXd& m, const Eigen::Vecto
   return pursue(z);
 }
 
+void LinearPath::reserve(Index n) {
+  set_size(n);
+  ratio_test_.prepare(n, options_.tie_tolerance, options_.pivot_tolerance);
+  basis_.reserve(n);
+}
+
+void LinearPath::set_size(Index n) {
+  if (zero_.size() == n) return;
+  zero_.setZero(n);
+  infinite_.setConstant(n, infinity);
+  ones_.setOnes(n);
+}
+
 void LinearPath::prepare(const Eigen::VectorXd& q) {
   const Index n = q.size();
-  if (zero_.size() != n) {
-    zero_.setZero(n);
-    infinite_.setConstant(n, infinity);
-    ones_.setOnes(n);
-  }
+  set_size(n);
   const double scale = 1.0 + (n > 0 ? q.lpNorm<Eigen::Infinity>() : 0.0);
   feasibility_ = options_.tie_tolerance * scale;
   ratio_test_.prepare(n, feasibility_, options_.pivot_tolerance);

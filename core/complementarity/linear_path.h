@@ -58,6 +58,10 @@ class LinearPath {
  public:
   explicit LinearPath(const LinearPathOptions& options = {});
 
+  /// Makes room for problems of size n, so that solving one with a core of less than DenseLu::blocked_size
+  /// allocates nothing. For one size: a problem of another size takes the room away.
+  void reserve(Eigen::Index n);
+
   /// The linear complementarity problem  0 <= z _|_ q + M z >= 0  by Lemke's method with covering vector
   /// `cover`, > 0. On return z is the solution, or the last point of the path, which has tau > 0.
   [[nodiscard]] LinearPathResult lemke(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
@@ -100,6 +104,7 @@ class LinearPath {
     Eigen::Index open_row = none;
   };
 
+  void set_size(Eigen::Index n);
   void prepare(const Eigen::VectorXd& q);
   [[nodiscard]] bool start_at_bounds();
   [[nodiscard]] bool start_at_point(const Eigen::VectorXd& q, const Eigen::VectorXd& z);

@@ -2,21 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;           ///< tried before the line search
+constexpr int kFullSteps = 15;           ///< tried before anything else
+constexpr int kRestoringSteps = 40;      ///< tried last
+constexpr int kSweeps = 50;              ///< before those
+constexpr int kUndamped = 8;             ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;         ///< to this part
+constexpr double kAstray = 1e3;          ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;        ///< residual of closest points above which they are found anew
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
-constexpr double kShortest = 1.0 / 128;  ///< step of the line search, relative to a Newton step
+constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
+constexpr double kDecrease = 1e-4;       ///< Armijo's
+constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
+constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
 constexpr double kChordBelow = 1e-6;
 constexpr double kChordGain = 0.03;  ///< factor of the residual that such a step must bring
 /// Smallest pivot, relative to its column, with which closest points are eliminated.
 constexpr double kRegular = 1e-8;
 constexpr double kRegularisation = 1e-9;  ///< see newton_step()
+
+/// a + b - sqrt(a^2 + b^2), zero exactly where 0 <= a _|_ b >= 0 (Fischer 1992).
+struct FischerBurmeisterTerm {
+  FischerBurmeisterTerm(double a, double b) {
+    const double length = std::hypot(a, b);
+    value = a + b - length;
+    const double kink = 1 - std::sqrt(0.5);  // a generalised derivative where there is none
+    by_unknown = length > 0 ? 1 - a / length : kink;
+    by_row = length > 0 ? 1 - b / length : kink;
+  }
+  double value, by_unknown, by_row;
+};
 
 /// Grows `vector` to n entries at least; what it held may be lost.
 void make_room(Eigen::VectorXd& vector, Eigen::Index n) {
@@ -26,34 +48,76 @@ void make_room(Eigen::VectorXd& vector, Eigen::Index n) {
 }  // namespace
 
 template <int Dim>
-SolveReport CondensedNewton<Dim>::solve(const StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
   problem_ = &problem;
-  const std::size_t contacts = problem.contacts().size();
-  if (elements_.size() < contacts) elements_.resize(contacts);
-  if (joints_.size() < problem.joints().size()) joints_.resize(problem.joints().size());
+  make_room_for_problem();
   for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
   make_room(momentum_, problem.layout().joints());
   // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
   gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
   evaluations_ = 0;
   factorisations_ = 0;
-  start_.head(problem.size()) = z.head(problem.size());
-  SolveReport report = search(true, std::min(kFullSteps, options_.max_iterations), z);
-  if (report.solved() || problem.contacts().empty()) return report;
-  const int tried = report.iterations;
-  z.head(problem.size()) = start_.head(problem.size());
-  report = search(false, options_.max_iterations, z);
-  report.iterations += tried;
+  const Eigen::Index n = problem.size();
+  start_.head(n) = z.head(n);
+  int iterations = 0;
+  const auto attempt = [&](const Strategy& strategy) {
+    const SolveReport report = search(strategy, z);
+    iterations += report.iterations;
+    return report;
+  };
+  SolveReport report = attempt({.limit = std::min(kFullSteps, options_.max_iterations)});
+  if (!report.solved() && !problem.contacts().empty()) {
+    z.head(n) = start_.head(n);
+    report = attempt({.line_search = true, .limit = options_.max_iterations});
+  }
+  if (!report.solved() && !problem.contacts().empty()) {
+    z.head(n) = start_.head(n);
+    evaluate(z);
+    static_cast<void>(restore(z));
+    sweeps_.run(problem, kSweeps, z);
+    evaluate(z);
+    static_cast<void>(restore(z));
+    report = attempt({.restores = true, .limit = std::min(kRestoringSteps, options_.max_iterations)});
+  }
+  report.iterations = iterations;
   return report;
 }
 
+/// Everything that any step of this problem may need, so that the first one that needs it allocates nothing.
 template <int Dim>
-SolveReport CondensedNewton<Dim>::search(bool full_steps, int limit, Eigen::VectorXd& z) {
+void CondensedNewton<Dim>::make_room_for_problem() {
+  const auto& contacts = problem_->contacts();
+  if (elements_.size() < contacts.size()) elements_.resize(contacts.size());
+  if (joints_.size() < problem_->joints().size()) joints_.resize(problem_->joints().size());
+  recent_merits_.reserve(kMeritMemory);
+  row_.reserve(2 * kVelocity);
+  Eigen::Index reduced = problem_->layout().contacts_begin();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& pair = contacts[i];
+    const int points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns() +
+                       pair.side_1.multipliers() + pair.side_2.multipliers();
+    const auto count = static_cast<std::size_t>(points);
+    Element& element = elements_[i];
+    element.eliminated.reserve(count);
+    element.response.reserve(count * 2 * kVelocity);
+    make_room(element.offset, points);
+    static_cast<void>(element.lu.matrix(points));
+    for (auto* list : {&element.kept, &element.place}) list->reserve(2 * kVelocity + kFriction + 1 + count);
+    reduced += kFriction + 1;
+  }
+  make_room(solution_, reduced);
+  reduced_.reserve(reduced);
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::search(const Strategy& strategy, Eigen::VectorXd& z) {
+  strategy_ = strategy;
   SolveReport report;
   recent_merits_.clear();
   evaluate(z);
   report.history.push(residual_);
   bool factors_are_good = false;
+  double before = std::numeric_limits<double>::infinity();
   const auto ended = [&](SolveStatus status) {
     report.status = status;
     report.residual = residual_;
@@ -63,10 +127,14 @@ SolveReport CondensedNewton<Dim>::search(bool full_steps, int limit, Eigen::Vect
     return report;
   };
   while (true) {
-    if (!std::isfinite(merit_)) return ended(SolveStatus::non_finite);
-    if (residual_ <= options_.tolerance) return ended(SolveStatus::solved);
-    if (report.iterations == limit) return ended(SolveStatus::iteration_limit);
-    const double before = residual_;
+    if (!std::isfinite(merit_) || (!strategy.line_search && residual_ > kAstray))
+      return ended(SolveStatus::non_finite);
+    // Within the tolerance is solved; but a step that still gains much is cheaper than what its rest does to
+    // the steps that follow.
+    const bool gains = residual_ < kWorthwhile * before;
+    if (residual_ <= (gains ? kTarget : 1.0) * options_.tolerance) return ended(SolveStatus::solved);
+    if (report.iterations == strategy.limit) return ended(SolveStatus::iteration_limit);
+    before = residual_;
     const bool chord = factors_are_good && residual_ < kChordBelow;
     if (chord) {
       chord_step(z);
@@ -74,7 +142,7 @@ SolveReport CondensedNewton<Dim>::search(bool full_steps, int limit, Eigen::Vect
       return ended(SolveStatus::singular_jacobian);
     }
     ++report.iterations;
-    if (!advance(full_steps || chord, z)) return ended(SolveStatus::stalled);
+    if (!advance(chord, report.iterations, z)) return ended(SolveStatus::stalled);
     report.history.push(residual_);
     factors_are_good = !chord || residual_ <= kChordGain * before;
   }
@@ -138,15 +206,30 @@ void CondensedNewton<Dim>::judge(Element& element, std::size_t i, Eigen::VectorX
     account(value, row);
     merit_ += value * value;
   };
-  for (Eigen::Index r = block.own; r < block.at.normal; ++r) take(block.f[r], in_z.point_1 + r - block.own);
+  element.geometry_residual = 0;
+  const auto take_geometry = [&](double value, Eigen::Index row) {
+    take(value, row);
+    if (!(std::abs(value) <= element.geometry_residual)) element.geometry_residual = std::abs(value);
+  };
+  for (Eigen::Index r = block.own; r < block.at.friction; ++r)
+    take_geometry(block.f[r], in_z.point_1 + r - block.own);
+  for (Eigen::Index r = block.at.friction; r < block.at.normal; ++r)
+    take(block.f[r], in_z.point_1 + r - block.own);
   const double p = z[in_z.normal];
   const double gap = block.f[block.at.normal];
   account(std::min(p, gap), in_z.normal);
-  const double weighted = std::min(p, gap_weight_ * gap);
-  merit_ += weighted * weighted;
+  const auto term = [this](double unknown, double row) {
+    const double value =
+        strategy_.line_search ? FischerBurmeisterTerm(unknown, row).value : std::min(unknown, row);
+    return value * value;
+  };
+  merit_ += term(p, gap_weight_ * gap);
   for (Eigen::Index r = block.at.multipliers_1; r < block.size; ++r) {
     const Eigen::Index row = in_z.multipliers_1 + r - block.at.multipliers_1;
-    take(std::min(z[row], block.f[r]), row);
+    const double least = std::min(z[row], block.f[r]);
+    account(least, row);
+    if (!(std::abs(least) <= element.geometry_residual)) element.geometry_residual = std::abs(least);
+    merit_ += term(z[row], block.f[r]);
   }
 }
 
@@ -173,6 +256,19 @@ void CondensedNewton<Dim>::set_rows(Element& element, std::size_t i, const Eigen
                                     bool derivatives) {
   const ContactLayout& in_z = problem_->layout().contact(i);
   StepBlock<Dim>& block = element.block;
+  if (strategy_.line_search) {
+    const auto combine = [&](Eigen::Index row, double unknown, double weight) {
+      const FischerBurmeisterTerm term(unknown, weight * block.f[row]);
+      block.f[row] = term.value;
+      if (!derivatives) return;
+      block.j.row(row).head(block.size) *= weight * term.by_row;
+      block.j(row, row) += term.by_unknown;
+    };
+    combine(block.at.normal, z[in_z.normal], gap_weight_);
+    for (Eigen::Index r = block.at.multipliers_1; r < block.size; ++r)
+      combine(r, z[in_z.multipliers_1 + r - block.at.multipliers_1], 1.0);
+    return;
+  }
   const auto replace = [&](Eigen::Index row, double value) {
     block.f[row] = value;
     if (!derivatives) return;
@@ -429,14 +525,16 @@ Eigen::Index CondensedNewton<Dim>::column_in_z(std::size_t i, Eigen::Index unkno
 
 /// Takes the step, or the longest part of it that the line search allows. False if that allows none.
 template <int Dim>
-bool CondensedNewton<Dim>::advance(bool full_step, Eigen::VectorXd& z) {
+bool CondensedNewton<Dim>::advance(bool chord, int iteration, Eigen::VectorXd& z) {
   const Eigen::Index n = problem_->size();
-  if (full_step) {
-    z.head(n) += step_.head(n);
+  if (chord || !strategy_.line_search) {
+    // A search that goes around in a circle is slowed down at every other step.
+    const bool damped = strategy_.restores && iteration > kUndamped && iteration % 2 == 0;
+    z.head(n) += (damped ? kDamping : 1.0) * step_.head(n);
     evaluate(z);
+    if (strategy_.restores && restore(z)) evaluate(z);
     return true;
   }
-  constexpr double kDecrease = 1e-4;
   if (recent_merits_.size() == kMeritMemory) recent_merits_.erase(recent_merits_.begin());
   recent_merits_.push_back(merit_);
   const double reference = *std::max_element(recent_merits_.begin(), recent_merits_.end());
@@ -447,6 +545,19 @@ bool CondensedNewton<Dim>::advance(bool full_step, Eigen::VectorXd& z) {
     if (merit_ <= (1 - 2 * kDecrease * t) * reference) return true;
   }
   return false;
+}
+
+/// Finds closest points anew where a step has left them far from their rows: an active set of faces and edges
+/// that is guessed by complementarity from afar can lead anywhere, while the search from cold is certain.
+template <int Dim>
+bool CondensedNewton<Dim>::restore(Eigen::VectorXd& z) {
+  bool any = false;
+  for (std::size_t i = 0; i < problem_->contacts().size(); ++i) {
+    if (elements_[i].geometry_residual <= kRestore) continue;
+    problem_->find_points(i, z);
+    any = true;
+  }
+  return any;
 }
 
 template class CondensedNewton<2>;

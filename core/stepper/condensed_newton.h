@@ -4,6 +4,7 @@
 
 #include "core/complementarity/dense_lu.h"
 #include "core/complementarity/report.h"
+#include "core/stepper/contact_sweeps.h"
 #include "core/stepper/reduced_system.h"
 #include "core/stepper/step_problem.h"
 
@@ -20,13 +21,14 @@ struct CondensedOptions {
 /// together is the bodies' velocities with the impulses (p_f, p_n) of the contacts that touch. Same unknowns,
 /// rows, solutions and residual as the full mixed problem; only the linear algebra differs.
 ///
-/// Complementarity is the active set of the minimum function: a gap row stands where it is below p_n, else
-/// p_n = 0 (and likewise f_i and l_i of intersections). Where the closest points are not determined by the
-/// bodies' poses alone (flat on flat) elimination is singular: such a contact keeps its points among what is
-/// solved together.
+/// Where the closest points are not determined by the bodies' poses alone (flat on flat) elimination is
+/// singular: such a contact keeps its points among what is solved together.
 ///
-/// First full steps, which nearly always converge within a few; if they do not, again from the start with a
-/// line search on 1/2 |Phi|^2. What is left then is for the full problem's solvers.
+/// Three searches, each from the same start, the next where the last one fails: full steps with the active
+/// set of the minimum function, which nearly always converge within a few; a line search on the merit of
+/// Fischer and Burmeister's function; and full steps again from where Gauss-Seidel sweeps lead
+/// (contact_sweeps.h), with closest points found anew where a step loses them. What is left then is for the
+/// full problem's solvers.
 template <int Dim>
 class CondensedNewton {
  public:
@@ -34,11 +36,20 @@ class CondensedNewton {
 
   /// @param z  start on entry, at least problem.size() entries, in the projection form of friction; the
   ///           solution if the report says so, else wherever the search ended
-  [[nodiscard]] SolveReport solve(const StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport solve(StepProblem<Dim>& problem, Eigen::VectorXd& z);
 
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
   static constexpr int kFriction = Dimension<Dim>::friction;
+
+  /// How one search goes about it.
+  struct Strategy {
+    /// Complementarity by Fischer & Burmeister's function, and a nonmonotone line search on 1/2 |Phi|^2;
+    /// otherwise by the active set of the minimum function, and full steps.
+    bool line_search = false;
+    bool restores = false;  ///< finds closest points anew where a step loses them
+    int limit = 0;          ///< of Newton steps
+  };
 
   /// A joint at the current z.
   struct Joint {
@@ -49,6 +60,7 @@ class CondensedNewton {
 
   /// A contact at the current z.
   struct Element : Joint {
+    double geometry_residual = 0.0;
     bool touching = false;                 ///< its gap row stands
     bool loaded = false;                   ///< its impulse is among what is solved together
     bool regular = false;                  ///< the closest points follow from the poses
@@ -60,7 +72,8 @@ class CondensedNewton {
     Eigen::VectorXd offset;                ///< of the eliminated unknowns, for no motion of the kept ones
   };
 
-  [[nodiscard]] SolveReport search(bool full_steps, int limit, Eigen::VectorXd& z);
+  void make_room_for_problem();
+  [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
   void evaluate(Eigen::VectorXd& z);
   void judge(Element& element, std::size_t i, Eigen::VectorXd& z);
   void account(double value, Eigen::Index row);
@@ -78,15 +91,17 @@ class CondensedNewton {
   void chord_step(const Eigen::VectorXd& z);
   void solve_reduced();
   void expand();
-  [[nodiscard]] bool advance(bool full_step, Eigen::VectorXd& z);
+  [[nodiscard]] bool restore(Eigen::VectorXd& z);
+  [[nodiscard]] bool advance(bool chord, int iteration, Eigen::VectorXd& z);
   [[nodiscard]] Eigen::Index column_in_z(std::size_t i, Eigen::Index unknown) const;
 
   CondensedOptions options_;
-  const StepProblem<Dim>* problem_ = nullptr;
+  StepProblem<Dim>* problem_ = nullptr;
   std::vector<Element> elements_;
   std::vector<Joint> joints_;
   Eigen::Index reduced_size_ = 0;
   ReducedSystem reduced_;
+  ContactSweeps<Dim> sweeps_;
   Eigen::VectorXd momentum_;  ///< rows of the bodies
   Eigen::VectorXd solution_;  ///< of the reduced system
   Eigen::VectorXd step_;      ///< in z
@@ -98,6 +113,7 @@ class CondensedNewton {
   Eigen::Index worst_row_ = -1;
   double merit_ = 0.0;
   double gap_weight_ = 1.0;
+  Strategy strategy_;
   int evaluations_ = 0;
   int factorisations_ = 0;
 };

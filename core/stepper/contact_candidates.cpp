@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/contact/closest_points.h"
@@ -10,6 +13,17 @@
 namespace touchstone {
 
 namespace {
+
+constexpr double kMargin = 0.02;  // of the body's size: a pair that just touches is in
+
+std::pair<int, int> ordered(int i, int j) { return i < j ? std::pair(i, j) : std::pair(j, i); }
+
+/// A box that overlaps nothing.
+template <int Dim>
+AlignedBox<Dim> nowhere() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  return {Vector<Dim>::Constant(infinity), Vector<Dim>::Constant(-infinity)};
+}
 
 /// Body 2 owns the contact frame: the body with the simplest normal, a plane before a smooth surface before
 /// an intersection, and among equals the fixed one.
@@ -27,25 +41,80 @@ ContactCandidates<Dim>::ContactCandidates(const Scene<Dim>& scene) : scene_(scen
     surfaces_.push_back(make_surface(body.shape));
     balls_.push_back(surfaces_.back()->bounding_ball());
   }
+  for (const auto& joint : scene.joints) jointed_.push_back(ordered(joint.body_a, joint.body_b));
+  std::sort(jointed_.begin(), jointed_.end());
   const int count = static_cast<int>(scene.bodies.size());
   for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      const Body<Dim>& a = scene.bodies[static_cast<std::size_t>(i)];
-      const Body<Dim>& b = scene.bodies[static_cast<std::size_t>(j)];
-      if ((a.fixed && b.fixed) || scene.jointed(i, j)) continue;
-      Side<Dim> side_a = make_side(surface(i));
-      Side<Dim> side_b = make_side(surface(j));
-      if (side_a.kind == SideKind::plane && side_b.kind == SideKind::plane) {
-        throw Unsupported(fmt::format("contact of two half-spaces ({} and {})", a.name, b.name));
+    if (surface(i).plane() == nullptr) {
+      bounded_.push_back(i);
+      continue;
+    }
+    for (int j = 0; j < count; ++j) {
+      if (j == i || (j < i && surface(j).plane() != nullptr) || excluded(i, j)) continue;
+      if (surface(j).plane() != nullptr) {
+        throw Unsupported(fmt::format("contact of two half-spaces ({} and {})",
+                                      scene.bodies[static_cast<std::size_t>(i)].name,
+                                      scene.bodies[static_cast<std::size_t>(j)].name));
       }
-      Pair pair{{i, j, side_a, side_b, scene.law(i, j)}};
-      if (frame_rank(side_a, a.fixed) > frame_rank(side_b, b.fixed)) {
-        std::swap(pair.contact.body_1, pair.contact.body_2);
-        std::swap(pair.contact.side_1, pair.contact.side_2);
-      }
-      pairs_.push_back(pair);
+      with_plane_.push_back(static_cast<int>(pairs_.size()));
+      pairs_.push_back(make_pair(std::min(i, j), std::max(i, j)));
     }
   }
+  selected_.reserve(pairs_.size());
+  boxes_.reserve(bounded_.size());
+  tree_.reserve(bounded_.size());
+}
+
+template <int Dim>
+auto ContactCandidates<Dim>::make_pair(int i, int j) const -> Pair {
+  const Body<Dim>& a = scene_.bodies[static_cast<std::size_t>(i)];
+  const Body<Dim>& b = scene_.bodies[static_cast<std::size_t>(j)];
+  Pair pair{{i, j, make_side(surface(i)), make_side(surface(j)), scene_.law(i, j)}};
+  ContactPair<Dim>& contact = pair.contact;
+  if (frame_rank(contact.side_1, a.fixed) > frame_rank(contact.side_2, b.fixed)) {
+    std::swap(contact.body_1, contact.body_2);
+    std::swap(contact.side_1, contact.side_2);
+  }
+  return pair;
+}
+
+template <int Dim>
+bool ContactCandidates<Dim>::excluded(int i, int j) const {
+  const bool fixed =
+      scene_.bodies[static_cast<std::size_t>(i)].fixed && scene_.bodies[static_cast<std::size_t>(j)].fixed;
+  return fixed || std::binary_search(jointed_.begin(), jointed_.end(), ordered(i, j));
+}
+
+template <int Dim>
+int ContactCandidates<Dim>::find_or_add(int i, int j) {
+  const std::uint64_t key = static_cast<std::uint64_t>(i) << 32 | static_cast<std::uint64_t>(j);
+  const auto known = index_.find(key);
+  if (known != index_.end()) return known->second;
+  const int index = static_cast<int>(pairs_.size());
+  index_.emplace(key, index);
+  pairs_.push_back(make_pair(i, j));
+  return index;
+}
+
+template <int Dim>
+template <typename Visit>
+void ContactCandidates<Dim>::for_each_near(State state, double h, Visit visit) {
+  for (const int pair : with_plane_) visit(pair);
+  if (bounded_.size() < 2) return;
+  boxes_.clear();
+  for (const int body : bounded_) boxes_.push_back(box(body, state, h));
+  tree_.build(boxes_);
+  found_.clear();
+  for (std::size_t k = 0; k < bounded_.size(); ++k) {
+    const int i = bounded_[k];
+    if (scene_.bodies[static_cast<std::size_t>(i)].fixed) continue;
+    tree_.for_each_overlapping(boxes_[k], [&](int other) {
+      const int j = bounded_[static_cast<std::size_t>(other)];
+      const bool twice = !scene_.bodies[static_cast<std::size_t>(j)].fixed && j < i;
+      if (j != i && !twice && !excluded(i, j)) found_.push_back(ordered(i, j));
+    });
+  }
+  for (const auto& [i, j] : found_) visit(find_or_add(i, j));
 }
 
 template <int Dim>
@@ -71,31 +140,68 @@ double ContactCandidates<Dim>::reach(const ContactPair<Dim>& contact, std::span<
     speed += state[i].velocity.template head<Dim>().norm();
     if (std::isfinite(balls_[i].radius)) size = std::max(size, balls_[i].radius);
   }
-  constexpr double kMargin = 0.02;  // of the body's size: a pair that just touches is in
   return h * speed + kMargin * size;
 }
 
 template <int Dim>
-void ContactCandidates<Dim>::select(std::span<const BodyState<Dim>> state, double h) {
-  for (auto& pair : pairs_) {
-    pair.selected = ball_gap(pair.contact, state) <= reach(pair.contact, state, h);
+AlignedBox<Dim> ContactCandidates<Dim>::box(int i, State state, double h) const {
+  constexpr double kRounding = 1e-12;  // far above that of ball_gap() and reach()
+  const auto index = static_cast<std::size_t>(i);
+  const Vector<Dim> center = state[index].pose.to_world(balls_[index].center);
+  const double radius = balls_[index].radius;
+  double extent = radius;
+  if (h > 0) {
+    // Half of what gravity adds to a pair, and all of what the body itself does: two boxes together have at
+    // least the pair's reach.
+    extent += 0.5 * h * h * scene_.gravity.norm();
+    if (!scene_.bodies[index].fixed)
+      extent += h * state[index].velocity.template head<Dim>().norm() + kMargin * radius;
   }
+  extent += kRounding * (extent + center.template lpNorm<Eigen::Infinity>());
+  // A body that is nowhere is near nothing, as its balls would say.
+  if (!(std::isfinite(extent) && center.allFinite())) return nowhere<Dim>();
+  return {center.array() - extent, center.array() + extent};
 }
 
 template <int Dim>
-bool ContactCandidates<Dim>::add_overlapping(std::span<const BodyState<Dim>> state) {
-  bool added = false;
-  for (auto& pair : pairs_) {
-    if (pair.selected || ball_gap(pair.contact, state) >= 0) continue;
+void ContactCandidates<Dim>::sort_selected() {
+  const auto bodies = [this](int pair) {
+    const ContactPair<Dim>& contact = pairs_[static_cast<std::size_t>(pair)].contact;
+    return ordered(contact.body_1, contact.body_2);
+  };
+  std::sort(selected_.begin(), selected_.end(), [&](int x, int y) { return bodies(x) < bodies(y); });
+}
+
+template <int Dim>
+void ContactCandidates<Dim>::select(State state, double h) {
+  for (const int pair : selected_) pairs_[static_cast<std::size_t>(pair)].selected = false;
+  selected_.clear();
+  for_each_near(state, h, [&](int index) {
+    Pair& pair = pairs_[static_cast<std::size_t>(index)];
+    if (!(ball_gap(pair.contact, state) <= reach(pair.contact, state, h))) return;
+    pair.selected = true;
+    selected_.push_back(index);
+  });
+  sort_selected();
+}
+
+template <int Dim>
+bool ContactCandidates<Dim>::add_overlapping(State state) {
+  const std::size_t before = selected_.size();
+  for_each_near(state, 0.0, [&](int index) {
+    Pair& pair = pairs_[static_cast<std::size_t>(index)];
+    if (pair.selected || !(ball_gap(pair.contact, state) < 0)) return;
     const auto i = static_cast<std::size_t>(pair.contact.body_1);
     const auto j = static_cast<std::size_t>(pair.contact.body_2);
     const auto closest = closest_points(*pair.contact.side_1.surface, state[i].pose,
                                         *pair.contact.side_2.surface, state[j].pose);
-    if (closest.gap >= 0) continue;
+    if (closest.gap >= 0) return;
     pair.selected = true;
-    added = true;
-  }
-  return added;
+    selected_.push_back(index);
+  });
+  if (selected_.size() == before) return false;
+  sort_selected();
+  return true;
 }
 
 template class ContactCandidates<2>;

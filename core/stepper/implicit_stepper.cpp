@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/contact/closest_points.h"
 #include "core/contact/patch_middle.h"
 #include "core/model/errors.h"
 
@@ -125,16 +124,16 @@ void ImplicitStepper<Dim>::select_island(const Islands::Island& island) {
 template <int Dim>
 void ImplicitStepper<Dim>::collect_candidates() {
   active_contacts_.clear();
-  for (const auto& pair : candidates_.pairs()) {
-    if (pair.selected) active_contacts_.push_back(pair.contact);
-  }
+  for (const int pair : candidates_.selected())
+    active_contacts_.push_back(candidates_.pairs()[static_cast<std::size_t>(pair)].contact);
   warm_start_.match(active_contacts_);
   solved_contacts_.resize(active_contacts_.size());
+  contacts_.reserve(active_contacts_.size());
 }
 
-/// Warm start first, condensed if allowed; then the full problem from cold, where closest points are those of
-/// the predicted pose; then the other solver; then both from the middle of the patches in which bodies lie
-/// flat on each other, because a box that is about to tip may be out of reach from a corner of its base.
+/// The solver asked for, from the warm start; then the full problem's, from cold, where closest points are
+/// those of the predicted pose; then from the middle of the patches in which bodies lie flat on each other,
+/// because a box that is about to tip may be out of reach from a corner of its base.
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
@@ -144,19 +143,22 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
     if (report.solved() || problem_.size() > kLargestDense) return report;
+    ++fallbacks_;
     iterations += report.iterations;
   }
-  const Solver first = options_.solver == Solver::semismooth ? Solver::semismooth : Solver::path;
+  const Solver first = options_.solver == Solver::path ? Solver::path : Solver::semismooth;
   const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
+  const auto attempt = [&](Solver solver) {
+    report = run_solver(solver);
+    iterations += report.iterations;
+  };
   start_from_memory();
-  report = run_solver(first);
-  iterations += report.iterations;
-  for (const FindClosest find : {&closest_points<Dim>, &patch_middle<Dim>}) {
+  attempt(first);
+  for (const FindClosest<Dim> find : {&closest_points<Dim>, &patch_middle<Dim>}) {
     for (const Solver solver : {first, other}) {
       if (report.solved()) break;
       start_cold(find);
-      report = run_solver(solver);
-      iterations += report.iterations;
+      attempt(solver);
     }
   }
   report.iterations = iterations;
@@ -182,7 +184,10 @@ void ImplicitStepper<Dim>::start_from_memory() {
     const Eigen::VectorXd& impulses = joint_memory_[static_cast<std::size_t>(joint)];
     z_.segment(problem_.joint_column(joint), impulses.size()) = impulses;
   }
-  const int depth = warm_start_.depth(problem_.bodies(), island_);
+  // Extrapolation brings a start within the tolerance at once, where full Newton steps from the last solution
+  // end far below it: the full problem, which is there to compare with, is to be as exact as it can.
+  const int allowed = options_.solver == ImplicitOptions::Solver::condensed ? WarmStart<Dim>::kDepth : 1;
+  const int depth = std::min(allowed, warm_start_.depth(problem_.bodies(), island_));
   const bool constrained = !island_.empty() || !problem_.joints().empty();
   if (depth > 0 && constrained) {
     for (int place = 0; place < problem_.moving_bodies(); ++place) {
@@ -192,22 +197,20 @@ void ImplicitStepper<Dim>::start_from_memory() {
   } else {
     problem_.free_velocity(z_);
   }
-  problem_.advance(z_, end_);
   for (std::size_t i = 0; i < island_.size(); ++i) {
     if (warm_start_.knows(island_[i])) {
       recall(i, depth);
     } else {
-      find_points(i, &closest_points<Dim>);
+      problem_.find_points(i, z_);
     }
   }
 }
 
 template <int Dim>
-void ImplicitStepper<Dim>::start_cold(FindClosest find) {
+void ImplicitStepper<Dim>::start_cold(FindClosest<Dim> find) {
   z_.head(problem_.size()).setZero();
   problem_.free_velocity(z_);
-  problem_.advance(z_, end_);
-  for (std::size_t i = 0; i < island_contacts_.size(); ++i) find_points(i, find);
+  for (std::size_t i = 0; i < island_contacts_.size(); ++i) problem_.find_points(i, z_, find);
 }
 
 template <int Dim>
@@ -221,19 +224,6 @@ void ImplicitStepper<Dim>::recall(std::size_t i, int depth) {
   z_[at.normal] = memory.p;
   z_[at.slip] = memory.s;
   std::copy(memory.multipliers.begin(), memory.multipliers.end(), z_.data() + at.multipliers_1);
-}
-
-template <int Dim>
-void ImplicitStepper<Dim>::find_points(std::size_t i, FindClosest find) {
-  const ContactPair<Dim>& contact = island_contacts_[i];
-  const auto closest = find(*contact.side_1.surface, end_[static_cast<std::size_t>(contact.body_1)].pose,
-                            *contact.side_2.surface, end_[static_cast<std::size_t>(contact.body_2)].pose);
-  const Vector<Dim>& origin = problem_.prepared(i).origin;
-  const Vector<Dim> a_1 = closest.a_1 - origin;
-  const Vector<Dim> a_2 = closest.a_2 - origin;
-  problem_.set_normal_estimate(i, closest.normal);
-  problem_.set_points(i, a_1, a_2, z_);
-  problem_.set_multipliers(i, a_1, a_2, closest.normal, z_);
 }
 
 /// What the current island's solution says of the end of the step.

@@ -4,7 +4,6 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
-#include "core/contact/closest_points.h"
 #include "core/stepper/condensed_newton.h"
 #include "core/stepper/contact_candidates.h"
 #include "core/stepper/islands.h"
@@ -16,7 +15,7 @@ namespace touchstone {
 struct ImplicitOptions {
   enum class Solver {
     condensed,   ///< closest points eliminated (condensed_newton.h); the other two where that fails
-    path,        ///< the full mixed problem by path-following Newton; from cold; then the other one
+    path,        ///< the full mixed problem by path-following Newton; the other one where that fails
     semismooth,  ///< likewise by semismooth Newton
   };
 
@@ -48,20 +47,21 @@ class ImplicitStepper final : public Method<Dim> {
 
   /// The problem of the last step's last island and its solution, for certificates and tests.
   [[nodiscard]] const StepProblem<Dim>& problem() const { return problem_; }
+  /// What the last step's solution says of contacts()[i], multipliers of both sides included.
+  [[nodiscard]] const ContactSolution<Dim>& contact_solution(std::size_t i) const {
+    return warm_start_.last(i);
+  }
+  /// How many islands so far elimination left to the full problem's solvers.
+  [[nodiscard]] int fallbacks() const { return fallbacks_; }
   [[nodiscard]] Eigen::VectorXd solution() const { return z_.head(problem_.size()); }
 
  private:
-  /// closest_points() or patch_middle(): where a contact's points start from.
-  using FindClosest = ClosestPoints<Dim> (*)(const ConvexSurface<Dim>&, const Pose<Dim>&,
-                                             const ConvexSurface<Dim>&, const Pose<Dim>&);
-
   void collect_candidates();
   [[nodiscard]] SolveReport solve_islands(double h);
   void select_island(const Islands::Island& island);
   void start_from_memory();
-  void start_cold(FindClosest find);
+  void start_cold(FindClosest<Dim> find);
   void recall(std::size_t i, int depth);
-  void find_points(std::size_t i, FindClosest find);
   [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
@@ -75,6 +75,7 @@ class ImplicitStepper final : public Method<Dim> {
   Islands islands_;
   StepProblem<Dim> problem_;
   CondensedNewton<Dim> condensed_;
+  int fallbacks_ = 0;
   PathNewton path_;
   SemismoothNewton semismooth_;
   WarmStart<Dim> warm_start_;

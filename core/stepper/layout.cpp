@@ -7,7 +7,8 @@ void StepLayout<Dim>::assign(int moving_bodies, Eigen::Index joint_rows,
                              const std::vector<ContactPair<Dim>>& contacts) {
   contacts_.resize(contacts.size());
   joints_ = velocity(moving_bodies);
-  Eigen::Index next = joints_ + joint_rows;
+  contacts_begin_ = joints_ + joint_rows;
+  Eigen::Index next = contacts_begin_;
   const auto take = [&next](Eigen::Index count) {
     const Eigen::Index first = next;
     next += count;

@@ -43,6 +43,8 @@ class StepLayout {
   [[nodiscard]] Eigen::Index free_size() const { return free_size_; }
   [[nodiscard]] const ContactLayout& contact(std::size_t i) const { return contacts_[i]; }
   [[nodiscard]] static Eigen::Index velocity(int moving) { return Dimension<Dim>::velocity * moving; }
+  /// Where the contacts' unknowns begin.
+  [[nodiscard]] Eigen::Index contacts_begin() const { return contacts_begin_; }
   /// Where the joints' impulses begin.
   [[nodiscard]] Eigen::Index joints() const { return joints_; }
 
@@ -50,6 +52,7 @@ class StepLayout {
   Eigen::Index size_ = 0;
   Eigen::Index free_size_ = 0;
   Eigen::Index joints_ = 0;
+  Eigen::Index contacts_begin_ = 0;
   std::vector<ContactLayout> contacts_;
 };
 

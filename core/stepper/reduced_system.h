@@ -17,6 +17,10 @@ class ReducedSystem {
   /// Above this many unknowns it is sparse.
   static constexpr Eigen::Index dense_limit = 60;
 
+  /// Makes room for a system of this size, if it is dense.
+  void reserve(Eigen::Index size) {
+    if (is_dense(size)) static_cast<void>(lu_.matrix(size));
+  }
   /// Begins anew with all entries zero.
   void start(Eigen::Index size);
   [[nodiscard]] static bool is_dense(Eigen::Index size) { return size <= dense_limit; }

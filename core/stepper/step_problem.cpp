@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "core/surfaces/normal_combination.h"
+#include "core/contact/closest_multipliers.h"
 
 namespace touchstone {
 
@@ -185,14 +185,19 @@ void StepProblem<Dim>::assign_bounds() const {
 }
 
 template <int Dim>
+Twist<Dim> StepProblem<Dim>::free_velocity_of(int place) const {
+  constexpr int kAngular = Dimension<Dim>::angular;
+  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
+  Twist<Dim> nu;
+  nu.template head<Dim>() = moving.momentum.template head<Dim>() / moving.mass;
+  nu.template tail<kAngular>() = moving.inertia.inverse() * moving.momentum.template tail<kAngular>();
+  return nu;
+}
+
+template <int Dim>
 void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < selected_.size(); ++b) {
-    const Eigen::Index at = layout_.velocity(static_cast<int>(b));
-    const Moving& moving = moving_[selected_[b]];
-    z.template segment<Dim>(at) = moving.momentum.template head<Dim>() / moving.mass;
-    z.template segment<Dimension<Dim>::angular>(at + Dim) =
-        moving.inertia.inverse() * moving.momentum.template tail<Dimension<Dim>::angular>();
-  }
+  for (int b = 0; b < moving_bodies(); ++b)
+    z.template segment<Dimension<Dim>::velocity>(layout_.velocity(b)) = free_velocity_of(b);
 }
 
 template <int Dim>
@@ -300,6 +305,33 @@ void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<
 }
 
 template <int Dim>
+std::array<int, 2> StepProblem<Dim>::places(std::size_t i) const {
+  const auto place = [this](int body) {
+    const auto index = static_cast<std::size_t>(body);
+    return moving_index_[index] < 0 ? -1 : place_[index];
+  };
+  return {place(contacts_[i].body_1), place(contacts_[i].body_2)};
+}
+
+template <int Dim>
+ContactWrenches<Dim> StepProblem<Dim>::unit_wrenches(std::size_t i, std::size_t k) const {
+  constexpr int kAngular = Dimension<Dim>::angular;
+  constexpr int kFriction = Dimension<Dim>::friction;
+  const ContactState<Dim>& state = states_[i];
+  const double unit = (k == 0 ? 1 : -1) * prepared_[i].mass * row_options_.scale.velocity;
+  ContactWrenches<Dim> wrenches = ContactWrenches<Dim>::Zero();
+  const auto set = [&](int column, const Vector<Dim>& force) {
+    wrenches.template block<Dim, 1>(0, column) = force;
+    wrenches.template block<kAngular, 1>(Dim, column) = lever(state.side[k].arm).transpose() * force;
+  };
+  for (int t = 0; t < Dim - 1; ++t) set(t, unit * prepared_[i].semi_axes[t] * state.frame.tangents.col(t));
+  if constexpr (Dim == 3)
+    wrenches.template block<3, 1>(3, 2) = unit * prepared_[i].semi_axes[2] * state.frame.normal;
+  set(kFriction, unit * state.frame.normal);
+  return wrenches;
+}
+
+template <int Dim>
 void StepProblem<Dim>::joint_block(int i, const Eigen::VectorXd& z, bool derivatives,
                                    StepBlock<Dim>& block) const {
   const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(i)];
@@ -366,25 +398,31 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
 }
 
 template <int Dim>
-void StepProblem<Dim>::set_multipliers(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
-                                       const Vector<Dim>& normal, Eigen::VectorXd& z) const {
-  constexpr double kActive = 1e-6;  // of L: inequalities this close to the point may carry the normal
+void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
+  const ContactPair<Dim>& pair = contacts_[i];
+  const Vector<Dim>& origin = prepared_[i].origin;
+  const std::array<Pose<Dim>, 2> pose = {body_at_end(pair.body_1, origin, z).pose,
+                                         body_at_end(pair.body_2, origin, z).pose};
+  const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
+  set_normal_estimate(i, closest.normal);
+  set_points(i, closest.a_1, closest.a_2, z);
+  set_multipliers(i, pose, closest, z);
+}
+
+template <int Dim>
+void StepProblem<Dim>::set_multipliers(std::size_t i, const std::array<Pose<Dim>, 2>& pose,
+                                       const ClosestPoints<Dim>& closest, Eigen::VectorXd& z) const {
   const ContactPair<Dim>& pair = contacts_[i];
   const ContactLayout& at = layout_.contact(i);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const bool first = k == 0;
-    const Side<Dim>& side = first ? pair.side_1 : pair.side_2;
+    const Side<Dim>& side = k == 0 ? pair.side_1 : pair.side_2;
     if (side.kind != SideKind::intersection) continue;
-    const Pose<Dim> pose = body_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z).pose;
-    const Vector<Dim> outward = pose.rotation.matrix().transpose() * (first ? -normal : normal);
-    const NormalCombination<Dim> combination = normal_combination(
-        *side.surface, pose.to_body(first ? a_1 : a_2), outward, kActive * row_options_.scale.length);
-    const Eigen::Index column = first ? at.multipliers_1 : at.multipliers_2;
-    z.segment(column, side.multipliers()).setZero();
-    for (int l = 0; l < combination.size; ++l) {
-      const auto index = static_cast<std::size_t>(l);
-      z[column + combination.index[index]] = combination.multiplier[index];
-    }
+    const Vector<Dim> outward = k == 0 ? Vector<Dim>(-closest.normal) : closest.normal;
+    const Vector<Dim>& point = k == 0 ? closest.a_1 : closest.a_2;
+    double* const first = z.data() + (k == 0 ? at.multipliers_1 : at.multipliers_2);
+    closest_multipliers(*side.surface, pose[k].to_body(point),
+                        Vector<Dim>(pose[k].rotation.matrix().transpose() * outward),
+                        std::span(first, static_cast<std::size_t>(side.multipliers())));
   }
 }
 

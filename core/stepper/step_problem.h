@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/complementarity/problem.h"
+#include "core/contact/closest_points.h"
 #include "core/method.h"
 #include "core/stepper/contact_rows.h"
 #include "core/stepper/joint_rows.h"
@@ -30,6 +31,15 @@ struct StepBlock {
     j.resize(n, n);
   }
 };
+
+/// A search for the closest points of two bodies, from cold.
+template <int Dim>
+using FindClosest = ClosestPoints<Dim> (*)(const ConvexSurface<Dim>&, const Pose<Dim>&,
+                                           const ConvexSurface<Dim>&, const Pose<Dim>&);
+
+/// Wrenches of a contact's impulses on one body: a column each for y_t (y_o, y_r) and p.
+template <int Dim>
+using ContactWrenches = Eigen::Matrix<double, Dimension<Dim>::velocity, Dimension<Dim>::friction + 1>;
 
 /// One step of the geometrically implicit time-stepper as a mixed complementarity problem: Eqs. 10-11 of
 /// Chakraborty, Berard, Akella and Trinkle (2007), for any number of bodies and contacts.
@@ -79,6 +89,20 @@ class StepProblem final : public MixedComplementarityProblem {
   void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
   /// Rows of contact i where it was evaluated last, and their derivatives if asked for.
   void contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const;
+  /// Numbers of the moving bodies of contact i in this island, -1 for a fixed one.
+  [[nodiscard]] std::array<int, 2> places(std::size_t i) const;
+  /// psi [m] of contact i where it was evaluated last.
+  [[nodiscard]] double separation(std::size_t i) const {
+    return states_[i].frame.normal.dot(states_[i].separation);
+  }
+  /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
+  /// s].
+  [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
+  /// What a moving body's momentum rows are multiplied with.
+  [[nodiscard]] const Twist<Dim>& momentum_scale(int place) const {
+    return moving_[selected_[static_cast<std::size_t>(place)]].row_scale;
+  }
+  [[nodiscard]] Twist<Dim> free_velocity_of(int place) const;
   /// Rows of joint i of the scene, one of this island, at z.
   void joint_block(int i, const Eigen::VectorXd& z, bool derivatives, StepBlock<Dim>& block) const;
 
@@ -113,10 +137,10 @@ class StepProblem final : public MixedComplementarityProblem {
   void set_normal_estimate(std::size_t i, const Vector<Dim>& normal) {
     prepared_[i].reference = usable_reference(normal, contacts_[i].law.tangent);
   }
-  /// Writes the multipliers of contact i, l of intersections, for closest points relative to
-  /// prepared(i).origin whose normal out of body 2 is `normal`; does nothing for other shapes.
-  void set_multipliers(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
-                       const Vector<Dim>& normal, Eigen::VectorXd& z) const;
+  /// Finds the closest points of contact i from cold, at the poses that nu' in z leads to, and writes its
+  /// points, multipliers and reference direction.
+  /// @param find  closest_points() or patch_middle()
+  void find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find = &closest_points<Dim>);
   /// Position of body 1 of contact i at the end of the step, relative to prepared(i).origin.
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
     return body_at_end(contacts_[i].body_1, prepared_[i].origin, z).pose.position;
@@ -149,6 +173,8 @@ class StepProblem final : public MixedComplementarityProblem {
                                                            const Eigen::VectorXd& z) const;
   /// Mass of the lighter of two bodies that moves: the unit of impulses between them, over V.
   [[nodiscard]] double lighter_mass(int body_1, int body_2) const;
+  void set_multipliers(std::size_t i, const std::array<Pose<Dim>, 2>& pose, const ClosestPoints<Dim>& closest,
+                       Eigen::VectorXd& z) const;
   void place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const;
   void momentum_rows(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const;
 

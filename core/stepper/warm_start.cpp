@@ -6,6 +6,9 @@ namespace touchstone {
 
 namespace {
 
+/// Relative change of a velocity that is rounding: extrapolation would only amplify it.
+constexpr double kSteady = 1e-11;
+
 template <int Dim>
 std::array<int, 2> key(const ContactPair<Dim>& contact) {
   return {std::min(contact.body_1, contact.body_2), std::max(contact.body_1, contact.body_2)};
@@ -26,8 +29,12 @@ WarmStart<Dim>::WarmStart(const Scene<Dim>& scene) : velocities_(scene.bodies.si
 
 template <int Dim>
 void WarmStart<Dim>::match(std::span<const ContactPair<Dim>> contacts) {
+  if (next_.size() < contacts.size()) {
+    next_.resize(contacts.size());
+    traces_.resize(contacts.size());
+    new_traces_.resize(contacts.size());
+  }
   known_.assign(contacts.size(), nullptr);
-  if (next_.size() < contacts.size()) next_.resize(contacts.size());
   std::size_t at = 0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     while (at < trace_count_ && traces_[at].bodies < key(contacts[i])) ++at;
@@ -39,8 +46,13 @@ template <int Dim>
 int WarmStart<Dim>::depth(std::span<const int> bodies, std::span<const std::size_t> contacts) const {
   int depth = kDepth;
   for (const std::size_t i : contacts) depth = std::min(depth, known_[i] == nullptr ? 0 : known_[i]->count);
-  for (const int body : bodies) depth = std::min(depth, velocities_[static_cast<std::size_t>(body)].count);
-  return depth;
+  bool steady = true;
+  for (const int body : bodies) {
+    const VelocityTrace& trace = velocities_[static_cast<std::size_t>(body)];
+    depth = std::min(depth, trace.count);
+    steady = steady && trace.steady;
+  }
+  return steady ? std::min(depth, 1) : depth;
 }
 
 template <int Dim>
@@ -70,7 +82,6 @@ const ContactSolution<Dim>& WarmStart<Dim>::contact(std::size_t contact, int dep
 template <int Dim>
 void WarmStart<Dim>::accept(std::span<const ContactPair<Dim>> contacts,
                             std::span<const BodyState<Dim>> state) {
-  if (new_traces_.size() < contacts.size()) new_traces_.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Trace& trace = new_traces_[i];
     if (known_[i] != nullptr) {
@@ -90,8 +101,10 @@ void WarmStart<Dim>::accept(std::span<const ContactPair<Dim>> contacts,
   known_.clear();
   for (std::size_t body = 0; body < state.size(); ++body) {
     VelocityTrace& trace = velocities_[body];
+    const Twist<Dim>& velocity = state[body].velocity;
+    trace.steady = (velocity - trace.last[0]).norm() <= kSteady * velocity.norm();
     std::rotate(trace.last.begin(), trace.last.end() - 1, trace.last.end());
-    trace.last[0] = state[body].velocity;
+    trace.last[0] = velocity;
     trace.count = std::min(trace.count + 1, kDepth);
   }
 }

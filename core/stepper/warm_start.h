@@ -34,13 +34,18 @@ class WarmStart {
   void match(std::span<const ContactPair<Dim>> contacts);
   [[nodiscard]] bool knows(std::size_t contact) const { return known_[contact] != nullptr; }
   /// How many last steps, at most kDepth, all of these bodies and contacts have gone through without a
-  /// contact that closed or opened.
+  /// contact that closed or opened; 1 if nothing changes.
   [[nodiscard]] int depth(std::span<const int> bodies, std::span<const std::size_t> contacts) const;
 
   /// Extrapolated through `depth` >= 1 last steps.
   [[nodiscard]] Twist<Dim> velocity(int body, int depth) const;
   /// Valid until the next call. The contact is known.
   [[nodiscard]] const ContactSolution<Dim>& contact(std::size_t contact, int depth);
+
+  /// The last accepted solution of contact number i of those that were matched for it.
+  [[nodiscard]] const ContactSolution<Dim>& last(std::size_t contact) const {
+    return traces_[contact].last[0];
+  }
 
   /// Where a step's solution of contact number i is to be written, before accept().
   [[nodiscard]] ContactSolution<Dim>& next(std::size_t contact) { return next_[contact]; }
@@ -56,6 +61,7 @@ class WarmStart {
   };
   struct VelocityTrace {
     int count = 0;
+    bool steady = false;  ///< the last two are the same but for rounding
     std::array<Twist<Dim>, kDepth> last{};
   };
 

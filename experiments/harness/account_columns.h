@@ -6,20 +6,19 @@
 #include "experiments/harness/record.h"
 #include "experiments/harness/run_case.h"
 
-/// What the summary of an experiment tells of every case: where the energy went, by how much its steps miss
-/// Eqs. 10-11, and how many were solved.
+/// What the shared judge says of a run, in columns that are the same in every experiment which books energy.
 namespace touchstone::harness {
 
-/// initial_energy_J, energy_change_J, friction_loss_J, impact_loss_J, drift_J, largest_penetration_m,
-/// largest_residual, dynamics_residual, kinematics_residual, contact_residual, friction_residual, steps,
-/// unsolved_steps, iterations.
-const std::vector<std::string>& account_columns();
+/// initial_energy_J, energy_change_J; applied_work_J, friction_loss_J, impact_loss_J, energy_drift_J of the
+/// energy ledger; largest_penetration_m; the residual of Eqs. 10-11 and its parts; steps, unsolved_steps,
+/// iterations, failed_steps.
+std::vector<std::string> account_columns();
 
 /// `columns` and then account_columns().
 std::vector<std::string> with_account(std::vector<std::string> columns);
 
-/// Fills them from a run that was made with RunOptions::ledger. The losses stay empty for a method that does
-/// not tell its impulses: all of them would be drift.
+/// The ledger's columns stay empty for a method that does not tell its impulses: all would be drift.
+/// @param run  whose energy was booked
 template <int Dim>
 void set_account(Record& record, const CaseRun<Dim>& run);
 

@@ -46,7 +46,8 @@ struct Case {
   CaseId id;
   double cost =
       1.0;  ///< guess of the work, in any unit; costly cases start first, and the time left is told by it
-  std::string engine_version;       ///< of the library behind the method; empty if there is none
+  std::string engine_version;  ///< of the library behind the method; empty if there is none. A case with a
+                               ///< library runs in a process of its own (IsolationPolicy)
   std::function<CaseResult()> run;  ///< may throw; called from any thread, at most once
 };
 
@@ -60,6 +61,7 @@ struct TableSpec {
 struct FinishedCase {
   CaseResult result;
   double wall_s = 0.0;
+  bool timed_out = false;  ///< stopped by the time limit
 };
 
 }  // namespace touchstone::harness

@@ -28,6 +28,8 @@ struct RawCommandLine {
   std::optional<std::string> until;
   std::string jobs;
   std::string shard = "1/1";
+  std::string isolate = "auto";
+  std::string time_limit = number_cell(IsolationPolicy{}.time_limit.count());
   std::string out;
   bool list = false;
   bool quick = false;
@@ -101,6 +103,13 @@ Shard parse_shard(const std::string& text) {
   }
 }
 
+Isolate parse_isolate(const std::string& text) {
+  if (text == "auto") return Isolate::automatic;
+  if (text == "always") return Isolate::always;
+  if (text == "never") return Isolate::never;
+  throw InputError("--isolate", quoted(text), "auto, always, never");
+}
+
 int default_jobs() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 std::string help_footer(const CommandLineSpec& spec) {
@@ -137,6 +146,12 @@ void declare(CLI::App& app, const CommandLineSpec& spec, RawCommandLine& raw) {
       ->type_name("N");
   app.add_option("--shard", raw.shard, "run part i of n parts only, and keep it in a journal in --out")
       ->type_name("i/n");
+  app.add_option("--isolate", raw.isolate,
+                 "cases that run in processes of their own: auto (those of engines), always, never [auto]")
+      ->type_name("WHICH");
+  app.add_option("--time-limit", raw.time_limit,
+                 fmt::format("wall time after which an isolated case has failed [{}]", raw.time_limit))
+      ->type_name("SECONDS");
   raw.out = "results/" + spec.name;
   app.add_option("--out", raw.out, fmt::format("folder for the tables [{}]", raw.out))->type_name("DIR");
   app.add_flag("--list", raw.list, "print the cases and stop");
@@ -188,6 +203,9 @@ Selection check(const CommandLineSpec& spec, const RawCommandLine& raw) {
   constexpr long kMostJobs = 4096;
   selection.jobs = static_cast<int>(parse_integer("--jobs", raw.jobs, 1, kMostJobs));
   selection.shard = parse_shard(raw.shard);
+  selection.isolation.isolate = parse_isolate(raw.isolate);
+  selection.isolation.time_limit =
+      std::chrono::duration<double>(parse_positive("--time-limit", raw.time_limit));
   if (raw.out.empty()) throw InputError("--out", "''", "the path of a folder");
   selection.out = raw.out;
   selection.list = raw.list;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/method.h"
+#include "experiments/harness/isolation_policy.h"
 
 /// The command line that all experiments share.
 namespace touchstone::harness {
@@ -66,6 +67,7 @@ struct Selection {
   double until = 0.0;                                    ///< [s]
   int jobs = 1;
   Shard shard;
+  IsolationPolicy isolation;
   std::filesystem::path out;
   bool list = false;
   /// The command with every option that matters to the result.

@@ -124,7 +124,7 @@ int run_cases(const Experiment& experiment, const Selection& selection, std::spa
   if (!done.empty()) fmt::print(stderr, "{}: {} finished cases found in journals\n", name, done.size());
 
   const auto start = std::chrono::steady_clock::now();
-  const Results results = run_sweep(mine, done, selection.jobs, name, journal);
+  const Results results = run_sweep(mine, done, selection.jobs, name, journal, selection.isolation);
   facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   if (std::find(results.begin(), results.end(), std::nullopt) != results.end()) {

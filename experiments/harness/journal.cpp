@@ -6,31 +6,17 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "core/model/errors.h"
+#include "experiments/harness/case_text.h"
 
 namespace touchstone::harness {
 
 namespace {
 
-using Json = nlohmann::json;
-
 std::string header_line(const std::string& stamp) { return "touchstone journal 1 " + stamp + "\n"; }
-
-std::string case_line(const std::string& key, const FinishedCase& finished) {
-  const CaseResult& result = finished.result;
-  // Bytes that are not UTF-8 (of an engine's message, say) must not end a sweep: they are replaced.
-  return Json{{"case", key},
-              {"status", to_string(result.status)},
-              {"reason", result.reason},
-              {"tables", result.tables},
-              {"wall_s", finished.wall_s}}
-             .dump(-1, ' ', false, Json::error_handler_t::replace) +
-         "\n";
-}
 
 /// Cuts the next line, without its end, off `text`; none if it was not written to its end.
 std::optional<std::string_view> take_line(std::string_view& text) {
@@ -46,16 +32,6 @@ struct Content {
   std::size_t bytes = 0;  ///< how many of the file hold the header and whole cases
 };
 
-void read_case(const std::string_view line, FinishedCases& finished) {
-  const Json json = Json::parse(line);
-  FinishedCase one;
-  one.result.status = parse_case_status(json.at("status").get<std::string>());
-  json.at("reason").get_to(one.result.reason);
-  json.at("tables").get_to(one.result.tables);
-  json.at("wall_s").get_to(one.wall_s);
-  finished[json.at("case").get<std::string>()] = std::move(one);
-}
-
 Content parse_journal(std::string_view text, const std::string& stamp) {
   Content content;
   const std::string header = header_line(stamp);
@@ -64,7 +40,8 @@ Content parse_journal(std::string_view text, const std::string& stamp) {
   std::string_view rest = text.substr(header.size());
   while (const auto line = take_line(rest)) {
     try {
-      read_case(*line, content.finished);
+      KeyedCase one = parse_case_text(*line);
+      content.finished[std::move(one.key)] = std::move(one.finished);
     } catch (const std::exception&) {
       break;  // damaged: this case and those after it are run again
     }
@@ -105,7 +82,7 @@ Journal::Journal(const std::filesystem::path& file, const std::string& stamp)
 }
 
 void Journal::append(const std::string& key, const FinishedCase& result) {
-  const std::string line = case_line(key, result);
+  const std::string line = case_text(key, result) + "\n";
   const std::scoped_lock lock(mutex_);
   file_.write(line);
   file_.sync();

@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "core/certificate/certificate.h"
 #include "core/method.h"
-#include "core/stepper/contact_rows.h"
 
 /// The judge stands outside the accused: everything here is computed from the scene, read-back states and
-/// contact impulses, by the same code for every method, and shares nothing with the step problem but the
-/// surfaces and the units.
+/// contact impulses, by the same code for every method. The residual of a step is that of the certificate's
+/// checker, which shares nothing with the step problem but the surfaces.
 namespace touchstone {
 
 struct Energy {
@@ -24,8 +24,8 @@ struct Energy {
 struct StepResidual {
   double dynamics = 0.0;    ///< M nu' - M nu - sum W p - p_app - p_vp
   double kinematics = 0.0;  ///< q' - q (+) h nu'
-  double contact =
-      0.0;  ///< Eqs. 6, 9: points on their surfaces and opposite, 0 <= p_n _|_ psi >= 0, nothing overlaps
+  double contact = 0.0;  ///< Eqs. 6, 9, 20-22: points on their surfaces, opposite, along both normals, 0 <=
+                         ///< p_n _|_ psi >= 0, nothing overlaps
   double joints = 0.0;    ///< by how much the joints' anchors, axes and orientations have come apart
   double friction = 0.0;  ///< Eq. 5 as printed (Fritz-John), with sigma the least that its rows allow
   [[nodiscard]] double largest() const;
@@ -49,18 +49,8 @@ class Judge {
                                            std::span<const JointImpulse<Dim>> joints = {}) const;
 
  private:
-  [[nodiscard]] double dynamics(std::span<const BodyState<Dim>> before, std::span<const BodyState<Dim>> after,
-                                std::span<const ContactImpulse<Dim>> contacts,
-                                std::span<const JointImpulse<Dim>> joints, double h) const;
-  [[nodiscard]] double joint(const Joint<Dim>& joint, std::span<const BodyState<Dim>> after) const;
-  [[nodiscard]] double contact(const ContactImpulse<Dim>& c, std::span<const BodyState<Dim>> after) const;
-  [[nodiscard]] double friction(const ContactImpulse<Dim>& c, std::span<const BodyState<Dim>> after) const;
-  [[nodiscard]] double distance_from_surface(int body, const BodyState<Dim>& state,
-                                             const Vector<Dim>& point) const;
-  [[nodiscard]] double impulse_unit(const ContactImpulse<Dim>& c) const;
-
   const Scene<Dim>& scene_;
-  Scale scale_;
+  certificate::Checker<Dim> checker_;
   std::vector<std::shared_ptr<const ConvexSurface<Dim>>> surfaces_;
 };
 

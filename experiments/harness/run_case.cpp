@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/model/errors.h"
 #include "experiments/harness/interrupt.h"
@@ -29,17 +30,25 @@ bool is_finite(std::span<const BodyState<Dim>> state) {
 }
 
 void raise(double& largest, double value) {
-  // Not std::max, which would drop a NaN.
-  if (!(value <= largest)) largest = value;
+  // Not std::max, which would drop a NaN; and once there it stays.
+  if (!std::isnan(largest) && !(value <= largest)) largest = value;
+}
+
+void raise(EstimatedError& largest, const EstimatedError& error) {
+  raise(largest.position_m, error.position_m);
+  raise(largest.turn_rad, error.turn_rad);
+  raise(largest.velocity_m_s, error.velocity_m_s);
+  raise(largest.angular_velocity_rad_s, error.angular_velocity_rad_s);
 }
 
 /// Runs a case and keeps its account.
 template <int Dim>
 class Runner {
  public:
-  Runner(Method<Dim>& method, const RunOptions& options)
+  Runner(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer)
       : method_(method),
         options_(options),
+        observer_(observer),
         judge_(method.scene()),
         steps_(step_count(options.until, options.h)) {
     every_ = std::max(1L, (steps_ + options.samples - 1) / options.samples);
@@ -48,7 +57,11 @@ class Runner {
     run_.reported.resize(options.report.size());
     run_.planned_steps = steps_;
     run_.impulses = method.capabilities().contact_impulses;
-    if (options.ledger) ledger_.emplace(method.scene(), judge_, method.state());
+    if (options.ledger || options.keep_steps) ledger_.emplace(method.scene(), judge_, method.state());
+    if (!method.capabilities().one_run) {
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      run_.residual = {none, none, none, none, none};
+    }
   }
 
   CaseRun<Dim> run() {
@@ -59,8 +72,11 @@ class Runner {
       const StepReport report = method_.step(options_.h);
       run_.iterations += report.iterations;
       if (!accept(report, k)) break;
-      judge_step();
-      book_step();
+      if (method_.capabilities().one_run) {
+        judge_step();
+        book_step();
+      }
+      note_estimate();
       observe(k);
     }
     run_.end.assign(method_.state().begin(), method_.state().end());
@@ -108,8 +124,31 @@ class Runner {
     run_.account = ledger_->account();
   }
 
+  void keep_sample(long k, const Energy& now) {
+    run_.samples.push_back({time_of(k), now});
+    if (options_.states) run_.states.emplace_back(method_.state().begin(), method_.state().end());
+    if (ledger_) run_.accounts.push_back(run_.account);
+  }
+
+  void keep(long k) {
+    const auto state = method_.state();
+    const auto contacts = method_.contacts();
+    run_.kept.push_back({time_of(k), {state.begin(), state.end()}, {}});
+    if (k > 0) run_.kept.back().contacts.assign(contacts.begin(), contacts.end());
+  }
+
+  void note_estimate() {
+    const auto errors = method_.error_estimate();
+    if (errors.empty()) return;
+    run_.estimated_end.emplace();
+    for (const auto& error : errors) raise(*run_.estimated_end, estimated_error(error));
+    if (!run_.estimated_largest) run_.estimated_largest.emplace();
+    raise(*run_.estimated_largest, *run_.estimated_end);
+  }
+
   /// Energy and penetration after step k, and what is to be kept of them.
   void observe(long k) {
+    if (observer_) observer_(time_of(k), method_.state());
     const Energy now = judge_.energy(method_.state());
     if (k == 0) run_.initial = now;
     run_.final = now;
@@ -119,16 +158,12 @@ class Runner {
     for (std::size_t i = 0; i < report_steps_.size(); ++i) {
       if (report_steps_[i] == k) run_.reported[i] = now;
     }
-  }
-
-  void keep_sample(long k, const Energy& now) {
-    run_.samples.push_back({time_of(k), now});
-    if (options_.states) run_.states.emplace_back(method_.state().begin(), method_.state().end());
-    if (options_.ledger) run_.accounts.push_back(run_.account);
+    if (options_.keep_steps) keep(k);
   }
 
   Method<Dim>& method_;
   const RunOptions& options_;
+  const Observer<Dim>& observer_;
   Judge<Dim> judge_;
   std::optional<EnergyLedger<Dim>> ledger_;
   long steps_;
@@ -150,11 +185,19 @@ long step_count(double until, double h) {
 }
 
 template <int Dim>
-CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options) {
-  return Runner<Dim>(method, options).run();
+EstimatedError estimated_error(const StateError<Dim>& error) {
+  return {error.position.norm(), error.turn.norm(), error.velocity.template head<Dim>().norm(),
+          error.velocity.template tail<Dimension<Dim>::angular>().norm()};
 }
 
-template CaseRun<2> run_case(Method<2>&, const RunOptions&);
-template CaseRun<3> run_case(Method<3>&, const RunOptions&);
+template <int Dim>
+CaseRun<Dim> run_case(Method<Dim>& method, const RunOptions& options, const Observer<Dim>& observer) {
+  return Runner<Dim>(method, options, observer).run();
+}
+
+template EstimatedError estimated_error(const StateError<2>&);
+template EstimatedError estimated_error(const StateError<3>&);
+template CaseRun<2> run_case(Method<2>&, const RunOptions&, const Observer<2>&);
+template CaseRun<3> run_case(Method<3>&, const RunOptions&, const Observer<3>&);
 
 }  // namespace touchstone::harness

@@ -4,12 +4,14 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <stop_token>
 #include <thread>
 
 #include "core/model/errors.h"
+#include "experiments/harness/case_server.h"
 #include "experiments/harness/interrupt.h"
 #include "experiments/harness/progress.h"
 
@@ -20,8 +22,9 @@ namespace {
 /// The queue of cases that threads take from, and what they gave.
 class Pool {
  public:
-  Pool(std::span<const Case> cases, const FinishedCases& done, Journal& journal)
-      : cases_(cases), journal_(journal), results_(cases.size()) {
+  Pool(std::span<const Case> cases, const FinishedCases& done, Journal& journal,
+       const IsolationPolicy& isolation)
+      : cases_(cases), journal_(journal), isolation_(isolation), results_(cases.size()) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const auto it = done.find(case_key(cases[i].id));
       if (it != done.end()) {
@@ -38,8 +41,9 @@ class Pool {
 
   void run(int jobs, const std::string& name) {
     Progress progress(name, static_cast<int>(queue_.size()), queued_cost_);
-    std::vector<std::jthread> threads =
-        start(std::min<std::size_t>(static_cast<std::size_t>(jobs), queue_.size()));
+    const std::size_t count = std::min<std::size_t>(static_cast<std::size_t>(jobs), queue_.size());
+    start_servers(count);
+    std::vector<std::jthread> threads = start(count);
     std::unique_lock lock(mutex_);
     while (busy_ > 0) {
       changed_.wait_for(lock, std::chrono::milliseconds(200));
@@ -53,17 +57,29 @@ class Pool {
   std::vector<std::optional<FinishedCase>> take_results() { return std::move(results_); }
 
  private:
+  /// One for each thread to be, if there is anything for them to do.
+  void start_servers(std::size_t count) {
+    const auto isolated = [&](std::size_t index) { return isolation_.applies_to(cases_[index]); };
+    if (std::none_of(queue_.begin(), queue_.end(), isolated)) return;
+    while (servers_.size() < count) {
+      servers_.push_back(std::make_unique<CaseServer>(cases_, isolation_.time_limit));
+    }
+  }
+
   std::vector<std::jthread> start(std::size_t count) {
     const InterruptBlock signals_go_to_the_main_thread;
     std::vector<std::jthread> threads;
     busy_ = count;
-    for (std::size_t i = 0; i < count; ++i) threads.emplace_back([this] { work(); });
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back([this, i] { work(i); });
     return threads;
   }
 
-  void work() {
+  void work(std::size_t thread) {
     try {
-      while (const std::optional<std::size_t> index = take()) finish(*index, run_one(cases_[*index]));
+      while (const std::optional<std::size_t> index = take()) {
+        const Case& one = cases_[*index];
+        finish(*index, isolation_.applies_to(one) ? servers_[thread]->run(*index) : run_one(one));
+      }
     } catch (const Interrupted&) {
       // Its case stays without a result; the others see the same flag.
     } catch (...) {
@@ -82,7 +98,7 @@ class Pool {
   }
 
   void finish(std::size_t index, FinishedCase finished) {
-    journal_.append(case_key(cases_[index].id), finished);
+    if (!finished.timed_out) journal_.append(case_key(cases_[index].id), finished);
     const std::scoped_lock lock(mutex_);
     results_[index] = std::move(finished);
     ++done_cases_;
@@ -92,6 +108,8 @@ class Pool {
 
   std::span<const Case> cases_;
   Journal& journal_;
+  const IsolationPolicy& isolation_;
+  std::vector<std::unique_ptr<CaseServer>> servers_;  ///< by thread
   std::vector<std::size_t> queue_;
   double queued_cost_ = 0.0;
 
@@ -124,8 +142,9 @@ FinishedCase run_one(const Case& one) {
 }
 
 std::vector<std::optional<FinishedCase>> run_sweep(std::span<const Case> cases, const FinishedCases& done,
-                                                   int jobs, const std::string& name, Journal& journal) {
-  Pool pool(cases, done, journal);
+                                                   int jobs, const std::string& name, Journal& journal,
+                                                   const IsolationPolicy& isolation) {
+  Pool pool(cases, done, journal, isolation);
   pool.run(jobs, name);
   return pool.take_results();
 }

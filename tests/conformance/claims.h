@@ -18,6 +18,7 @@ std::unique_ptr<Method<Dim>> make_claimed(const MethodEntry<Dim>& entry, const S
   Scene<Dim> plain = scene;
   plain.contact_law = {.mu = scene.contact_law.mu};
   plain.pair_laws.clear();
+  plain.joints.clear();
   const bool claimed = entry.make(plain, {})->capabilities().*claim;
   std::unique_ptr<Method<Dim>> method;
   try {

@@ -113,7 +113,9 @@ void impulses_balance(const Subject<Dim>& subject) {
       EXPECT_NEAR(c.normal.norm(), 1.0, 1e-6);
     }
     if (!claimed) {
-      EXPECT_TRUE(method->contacts().empty()) << "impulses are reported but not claimed";
+      // Impulses of one of the runs that a method combines say something, but not of the combination.
+      EXPECT_TRUE(method->contacts().empty() || !method->capabilities().one_run)
+          << "impulses are reported but not claimed";
       continue;
     }
     total += p.norm();

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -56,6 +57,36 @@ void pair_laws(const Subject<Dim>& subject) {
   EXPECT_NEAR(speed(0), 3.0 - 0.3 * kGravity * kSteps * kStep, tolerance) << "default law";
   EXPECT_NEAR(speed(2), 3.0 - 0.1 * kGravity * kSteps * kStep, tolerance) << "law of the slippery pair";
   EXPECT_NEAR(speed(3), 3.0 - 0.5 * kGravity * kSteps * kStep, tolerance) << "law of the rough pair";
+}
+
+/// Two bodies of different coefficients on one ground, which an engine with one number a body can mix, too.
+template <int Dim>
+void two_laws(const Subject<Dim>& subject) {
+  Scene<Dim> scene = on_ground(ball<Dim>("default", up<Dim>()), 0.3);
+  scene.bodies.push_back(ball<Dim>("slippery", up<Dim>() + 10 * Vector<Dim>::Unit(0)));
+  ContactLaw<Dim> slippery = scene.contact_law;
+  slippery.mu = 0.1;
+  scene.pair_laws = {{1, 2, slippery}, {0, 2, slippery}};
+  scene.bodies[0].velocity[0] = scene.bodies[2].velocity[0] = 3.0;
+  const auto method = subject.entry.make(scene, {});
+  constexpr int kSteps = 10;
+  advance(*method, kStep, kSteps);
+  const double tolerance = subject.traits.slip_speed;
+  EXPECT_NEAR(method->state()[0].velocity[0], 3.0 - 0.3 * kGravity * kSteps * kStep, tolerance);
+  EXPECT_NEAR(method->state()[2].velocity[0], 3.0 - 0.1 * kGravity * kSteps * kStep, tolerance);
+}
+
+/// A ball that rolls more slowly than any engine's threshold for sleep rolls on.
+template <int Dim>
+void slow_rolling(const Subject<Dim>& subject) {
+  constexpr double kSpeed = 5e-3;
+  Body<Dim> body = ball<Dim>("ball", up<Dim>());
+  body.velocity[0] = kSpeed;
+  body.velocity.template tail<Dimension<Dim>::angular>() = rolling<Dim>(kSpeed, 1.0);
+  const auto method = subject.entry.make(on_ground(body, 0.5), {});
+  advance(*method, kStep, 500);
+  EXPECT_NEAR(method->state()[0].velocity[0], kSpeed, std::min(0.1 * kSpeed, subject.traits.contact_speed));
+  EXPECT_NEAR(rim_speed<Dim>(method->state()[0].velocity, 1.0), kSpeed, 0.1 * kSpeed);
 }
 
 /// Without friction nothing but the normal acts.
@@ -126,6 +157,8 @@ std::vector<Feature<Dim>> friction_features() {
   std::vector<Feature<Dim>> features = {
       {"slide_to_roll", "friction is mu times the normal force, and ends when it rolls", &slide_to_roll<Dim>},
       {"pair_laws", "each pair of bodies has its own coefficient", &pair_laws<Dim>},
+      {"two_laws", "two bodies of different coefficients, on one ground", &two_laws<Dim>},
+      {"slow_rolling", "a ball that rolls slowly rolls on: no sleep in contact", &slow_rolling<Dim>},
       {"frictionless", "mu = 0 is no friction", &frictionless<Dim>},
   };
   if constexpr (Dim == 3) {

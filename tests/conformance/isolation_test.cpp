@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <csignal>
-#include <cstdlib>
-#include <limits>
+#include <chrono>
 #include <thread>
 
 #include "baselines/registry.h"
 #include "core/model/errors.h"
 #include "tests/conformance/scenes.h"
+#include "tests/support/bad_method.h"
 
 /// A crash, a hang and a NaN inside a method cost one row each, and not the run.
 namespace touchstone {
@@ -21,41 +19,16 @@ using namespace std::chrono_literals;
 using conformance::ball;
 using conformance::on_ground;
 using conformance::up;
+using test::BadMethod;
+using test::behave;
+using test::crash;
+using test::give_up;
+using test::hang;
+using test::leave;
+using test::spoil;
 
 constexpr auto kLong = 60s;
 constexpr auto kShort = 200ms;
-
-/// A method that does something bad in its third step.
-class BadMethod final : public Method<2> {
- public:
-  BadMethod(Scene<2> scene, void (*misdeed)(BodyState<2>&))
-      : scene_(std::move(scene)), state_(initial_state(scene_)), misdeed_(misdeed) {}
-
-  [[nodiscard]] Capabilities capabilities() const override { return {}; }
-  [[nodiscard]] const Scene<2>& scene() const override { return scene_; }
-  [[nodiscard]] std::span<const BodyState<2>> state() const override { return state_; }
-  [[nodiscard]] std::span<const ContactImpulse<2>> contacts() const override { return {}; }
-  [[nodiscard]] StepReport step(double) override {
-    if (++steps_ == 3) misdeed_(state_[0]);
-    return state_[0].velocity.allFinite() ? StepReport{} : StepReport{.status = StepStatus::non_finite};
-  }
-  [[nodiscard]] Options effective_options() const override { return {}; }
-
- private:
-  Scene<2> scene_;
-  std::vector<BodyState<2>> state_;
-  void (*misdeed_)(BodyState<2>&);
-  int steps_ = 0;
-};
-
-void behave(BodyState<2>&) {}
-void crash(BodyState<2>&) { std::raise(SIGSEGV); }
-void give_up(BodyState<2>&) { std::abort(); }
-void leave(BodyState<2>&) { _exit(7); }
-void hang(BodyState<2>&) {
-  while (true) pause();
-}
-void spoil(BodyState<2>& state) { state.velocity[0] = std::numeric_limits<double>::quiet_NaN(); }
 
 /// One row: the status of the first step that was not solved, or of the last.
 std::string row(void (*misdeed)(BodyState<2>&)) {

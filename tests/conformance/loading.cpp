@@ -62,6 +62,26 @@ void mass_is_echoed(const Subject<Dim>& subject) {
   EXPECT_LE((loaded.inertia - body.inertia).norm(), 10 * subject.traits.rounding);
 }
 
+/// Kinetic energy of the body that the method has, as far as it has a copy of its own: mass, inertia and
+/// velocity in frames that belong together.
+template <int Dim>
+void energy_is_echoed(const Subject<Dim>& subject) {
+  const Body<Dim> body = skew_ball<Dim>();
+  const auto kinetic = [](double mass, const Inertia<Dim>& inertia, const BodyState<Dim>& state) {
+    const Vector<Dim> v = state.velocity.template head<Dim>();
+    const Angular<Dim> w = state.velocity.template tail<Dimension<Dim>::angular>();
+    return 0.5 * mass * v.squaredNorm() + 0.5 * w.dot(world_inertia(inertia, state.pose.rotation) * w);
+  };
+  const double expected = kinetic(body.mass, body.inertia, {body.pose, body.velocity});
+  ASSERT_GT(expected, 0.1);
+  const auto method = subject.entry.make(on_ground(body, 0.3), {});
+  const auto* tells = dynamic_cast<const engines::TellsMass<Dim>*>(method.get());
+  const auto loaded =
+      tells != nullptr ? tells->mass_properties(0) : engines::MassProperties<Dim>{body.mass, body.inertia};
+  EXPECT_NEAR(kinetic(loaded.mass, loaded.inertia, method->state()[0]), expected,
+              10 * subject.traits.rounding * expected);
+}
+
 template <int Dim>
 void options_come_back(const Subject<Dim>& subject) {
   const Scene<Dim> scene = on_ground(ball<Dim>("ball", up<Dim>()), 0.3);
@@ -83,6 +103,10 @@ template <int Dim>
 void engine_names_its_version(const Subject<Dim>& subject) {
   if (subject.entry.version == nullptr) return;
   const std::string version = subject.entry.version();
+  const auto method = subject.entry.make(on_ground(ball<Dim>("ball", up<Dim>()), 0.3), {});
+  const bool has_a_world = dynamic_cast<const engines::TellsMass<Dim>*>(method.get()) != nullptr;
+  EXPECT_EQ(version.empty(), !has_a_world)
+      << "who has an engine behind it has a version: '" << version << "'";
   EXPECT_TRUE(version.empty() || std::isdigit(static_cast<unsigned char>(version.front()))) << version;
 }
 
@@ -93,6 +117,7 @@ std::vector<Feature<Dim>> loading_features() {
   return {
       {"state_echo", "pose and velocity after loading are the scene's", &state_is_echoed<Dim>},
       {"mass_echo", "mass and inertia, about the right axes, are the scene's", &mass_is_echoed<Dim>},
+      {"energy_echo", "kinetic energy after loading is the scene's", &energy_is_echoed<Dim>},
       {"options_echo", "the options in force can be given back", &options_come_back<Dim>},
       {"options_checked", "unknown options and bad values are refused", &unknown_options_are_refused<Dim>},
       {"version", "the library tells its version", &engine_names_its_version<Dim>},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/conformance/claims.h"
 #include "tests/conformance/feature.h"
 #include "tests/conformance/scenes.h"
 
@@ -137,6 +138,34 @@ void no_damping_no_sleep(const Subject<Dim>& subject) {
   EXPECT_NEAR(state.pose.position[0], 5e-3, 1e-4);
 }
 
+/// A body on an arm that hangs by a joint and is let go level: the arm's end stays where the joint is, and
+/// what the body falls is its kinetic energy.
+template <int Dim>
+void joints(const Subject<Dim>& subject) {
+  constexpr double kArm = 1.0;
+  constexpr int kSteps = 30;
+  Scene<Dim> scene = alone(ball<Dim>("bob", kArm * Vector<Dim>::Unit(0), 0.2));
+  scene.gravity = -kGravity * up<Dim>();
+  Body<Dim> post = ball<Dim>("post", Vector<Dim>::Zero(), 0.1);
+  post.fixed = true;
+  scene.bodies.push_back(post);
+  Joint<Dim> joint;
+  joint.body_a = 0;
+  joint.body_b = 1;
+  scene.joints = {joint};
+  const auto method = make_claimed(subject.entry, scene, &Capabilities::joints);
+  advance(*method, kStep, kSteps);
+  const BodyState<Dim>& state = method->state()[0];
+  const Vector<Dim> end = state.pose.to_world(-kArm * Vector<Dim>::Unit(0));
+  EXPECT_LE(end.norm(), subject.traits.joint_gap) << "the joint has come apart";
+  // Energy: first order in h, of a fall of about 0.4 m.
+  const double inertia = scene.bodies[0].inertia(0, 0);
+  const double spin = state.velocity.template tail<Dimension<Dim>::angular>().norm();
+  const double fallen = -state.pose.position[Dim - 1];
+  EXPECT_GT(fallen, 0.3);
+  EXPECT_NEAR(0.5 * (kArm * kArm + inertia) * spin * spin, kGravity * fallen, 5 * kStep * kGravity * fallen);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -145,6 +174,7 @@ std::vector<Feature<Dim>> motion_features() {
       {"free_flight", "a thrown body follows the integrator's own rule", &free_flight<Dim>},
       {"applied_force", "a force moves a mass as F = m a, in newtons and kilograms", &applied_force<Dim>},
       {"spin_frame", "angular velocity is in the world frame and turns the right way", &spin_frame<Dim>},
+      {"joints", "a body hangs and swings by a joint", &joints<Dim>},
       {"no_damping_no_sleep", "a slow free body keeps its velocity", &no_damping_no_sleep<Dim>},
   };
   if constexpr (Dim == 2) {

@@ -22,6 +22,7 @@ struct Traits {
   double flat_speed = 1e-5;      ///< as contact_speed, of bodies that rest on more than one point
   double flat_depth = 1e-5;      ///< as contact_depth, of bodies that rest on more than one point
   double settling_speed = 1e-5;  ///< as flat_speed, in the first 0.25 s
+  double joint_gap = 1e-6;       ///< by how far a joint's anchors may come apart [m]
   double impulse = 1e-9;         ///< relative error of the momentum balance with the contact impulses
 };
 

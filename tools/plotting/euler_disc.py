@@ -6,7 +6,7 @@ from . import style
 from .table import read_table
 
 COLUMNS = ["variant", "h_s", "method", "t_s", "inclination_rad", "precession_rad_s", "steady_precession_rad_s",
-           "contact_spin_rad_s", "total_J", "friction_loss_J", "drift_J"]
+           "contact_spin_rad_s", "total_J", "friction_loss_J", "energy_drift_J"]
 
 
 def known(xs, ys):

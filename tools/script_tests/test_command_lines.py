@@ -14,13 +14,14 @@ def run(script, *arguments):
 
 class CommandLines(unittest.TestCase):
     def test_help(self):
-        for script in ("setup", "test", "reproduce", "plot", "check_equation_tags"):
+        for script in ("setup", "test", "reproduce", "plot", "report_engines", "check_equation_tags"):
             done = run(script, "--help")
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("Exit codes", done.stdout)
 
     def test_bad_usage_names_the_value(self):
         for script, *arguments in (["setup", "--frob"], ["test", "--frob"], ["reproduce", "--frob"], ["plot", "--frob"],
+                                   ["report_engines", "--frob"], ["report_engines", "--results", "/frob"],
                                    ["test", "--only", "frob"], ["plot", "frob"],
                                    ["test", "--jobs", "frob"], ["reproduce", "--jobs", "frob"]):
             done = run(script, *arguments)

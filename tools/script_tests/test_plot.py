@@ -11,13 +11,14 @@ from pathlib import Path
 TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS))
 
-FIGURES = [f"{name}.{suffix}" for name in ("figure_1a", "figure_1b", "loss") for suffix in ("svg", "png")]
+FIGURES = [f"{name}.{suffix}" for name in ("figure_1a", "figure_1b", "loss", "engines", "engines_energy") for suffix in ("svg", "png")]
 HEADER = ["sweep", "method", "options", "edges", "candidates", "h_s", "t_s", "kinetic_J", "total_J"]
 
 
 def rows_of_cases():
     """Decaying energies for a handful of cases of every method that the figures show."""
     places = [("edges", edges, 0.01) for edges in (10, 100, 1000)] + [("step_size", 1000, h) for h in (0.05, 0.001)]
+    places.append(("engines", 1000, 0.01))
     for sweep, edges, h in places:
         for method, policy in (("stewart_trinkle", "all"), ("stewart_trinkle", "reachable"), ("exact_polygon", ""),
                                ("edge_limited", ""), ("step_limited", ""), ("implicit_ncp", "")):
@@ -26,6 +27,20 @@ def rows_of_cases():
             for t in (0.0, 0.5, 1.0, 2.0):
                 energy = 6.75 * math.exp(-rate * t)
                 yield [sweep, method, "", "" if smooth else edges, policy, h, t, energy, energy + 9.81]
+
+
+SUMMARY_HEADER = ["sweep", "method", "options", "edges", "h_s", "status", "method_loss_1s_J", "loss_J",
+                  "relative_energy_loss"]
+
+
+def rows_of_summary():
+    """Losses beyond the exact motion, of both signs, 0, and none where the method has no polygons."""
+    for method, loss in (("implicit_ncp", 0.0), ("box2d", -0.1), ("mujoco_elliptic_stiff", 0.2)):
+        for edges in ("", 30, 100, 1000):
+            for h in (0.01, 0.001, 0.0001):
+                ran = method != "implicit_ncp" or edges == ""
+                yield ["engines", method, "impratio=100" if h == 0.001 else "", edges, h, "ok" if ran else "unsupported",
+                       h * loss if ran else "", 1.35 if ran else "", 0.2 if ran else ""]
 
 
 class Plot(unittest.TestCase):
@@ -40,6 +55,10 @@ class Plot(unittest.TestCase):
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(HEADER)
             writer.writerows(rows_of_cases())
+        with (self.directory / "summary.csv").open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(SUMMARY_HEADER)
+            writer.writerows(rows_of_summary())
 
     def plot(self):
         return subprocess.run([TOOLS / "plot", "--results", self.results, "disc_rolling"], capture_output=True,
@@ -93,6 +112,30 @@ class Plot(unittest.TestCase):
     def test_unwritable_figure_leaves_earlier_ones(self):
         (self.directory / "figure_1a.svg").mkdir()
         self.assert_refused(3, "figure_1a.svg", "cannot be written")
+
+
+class ClosedForms(unittest.TestCase):
+    def test_errors_are_short_and_rounding_is_zero(self):
+        from plotting.closed_forms import short
+
+        self.assertEqual([short(x) for x in (3.4e-4, 9.7e-3, 0.12, 1.0, 2e-15)], ["3e-4", "1e-2", "1e-1", "1e0", "0"])
+
+    def test_same_bytes_whatever_became_of_a_case(self):
+        header = ["scenario", "method", "dimension", "h_s", "status", "observed_order", "relative_error"]
+        rows = [["drop", "implicit_ncp", d, 0.01, "ok", 1.0, 0.005] for d in (2, 3)]
+        rows += [["bounce", "implicit_ncp", d, 0.01, "unsupported", "", ""] for d in (2, 3)]
+        rows += [["drop", "box2d", 2, 0.01, "failed", "", ""], ["bounce", "box2d", 2, 0.01, "ok", "", 0.0]]
+        with tempfile.TemporaryDirectory() as folder:
+            directory = Path(folder) / "closed_forms"
+            directory.mkdir()
+            with (directory / "summary.csv").open("w", newline="", encoding="utf-8") as file:
+                csv.writer(file, lineterminator="\n").writerows([header, *rows])
+            drawn = []
+            for _ in range(2):
+                done = subprocess.run([TOOLS / "plot", "--results", folder, "closed_forms"], capture_output=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                drawn.append([(directory / f"{name}.png").read_bytes() for name in ("error", "order")])
+            self.assertEqual(drawn[0], drawn[1])
 
 
 class Spread(unittest.TestCase):

@@ -74,7 +74,8 @@ std::string list_capabilities(const std::optional<Capabilities>& capabilities) {
                                                    {capabilities->torsional_friction, "torsion"},
                                                    {capabilities->anisotropic_friction, "anisotropy"},
                                                    {capabilities->restitution, "restitution"},
-                                                   {capabilities->joints, "joints"}};
+                                                   {capabilities->joints, "joints"},
+                                                   {!capabilities->one_run, "several-runs"}};
   std::vector<std::string_view> names;
   for (const auto& [has, name] : all) {
     if (has) names.push_back(name);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/contact/closest_points.h"
+#include "experiments/harness/run_case.h"
 
 namespace touchstone::program {
 
@@ -57,7 +58,8 @@ Recorder<Dim>::Recorder(const Method<Dim>& method)
                    "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"}),
       contacts_({"t_s", "body_a", "body_b", "gap_m", "normal_N", "tangent_t_N", "tangent_o_N", "torsion_Nm",
                  "slip_m_s", "spin_rad_s"}),
-      energy_({"t_s", "kinetic_J", "potential_J", "total_J", "friction_loss_J", "impact_loss_J", "drift_J"}) {
+      energy_({"t_s", "kinetic_J", "potential_J", "total_J", "friction_loss_J", "impact_loss_J", "drift_J"}),
+      estimate_({"t_s", "body", "position_m", "turn_rad", "velocity_m_s", "angular_velocity_rad_s"}) {
   for (const auto& body : method.scene().bodies) surfaces_.push_back(make_surface(body.shape));
 }
 
@@ -67,6 +69,7 @@ void Recorder<Dim>::record(double t, double h, const EnergyLedger<Dim>& ledger) 
   record_bodies(cell);
   if (h > 0) record_contacts(cell, h);
   record_energy(cell, ledger);
+  record_estimate(cell);
 }
 
 template <int Dim>
@@ -127,11 +130,28 @@ void Recorder<Dim>::record_energy(const std::string& t, const EnergyLedger<Dim>&
                    loss(account.friction_loss), loss(account.impact_loss), loss(account.drift)}});
 }
 
+/// Lengths of what the method takes its state to be off, a row a moving body.
+template <int Dim>
+void Recorder<Dim>::record_estimate(const std::string& t) {
+  std::vector<Row> rows;
+  const auto errors = method_.error_estimate();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Body<Dim>& body = method_.scene().bodies[i];
+    if (body.fixed) continue;
+    const harness::EstimatedError error = harness::estimated_error(errors[i]);
+    rows.push_back({t, body.name, number_cell(error.position_m), number_cell(error.turn_rad),
+                    number_cell(error.velocity_m_s), number_cell(error.angular_velocity_rad_s)});
+  }
+  estimate_.append(std::move(rows));
+}
+
 template <int Dim>
 std::vector<harness::FileContent> Recorder<Dim>::files(const std::filesystem::path& folder) const {
-  return {{folder / "trajectory.csv", trajectory_.text()},
-          {folder / "contacts.csv", contacts_.text()},
-          {folder / "energy.csv", energy_.text()}};
+  std::vector<harness::FileContent> files = {{folder / "trajectory.csv", trajectory_.text()},
+                                             {folder / "contacts.csv", contacts_.text()},
+                                             {folder / "energy.csv", energy_.text()}};
+  if (!method_.error_estimate().empty()) files.push_back({folder / kErrorEstimateFile, estimate_.text()});
+  return files;
 }
 
 template class Recorder<2>;

@@ -13,6 +13,9 @@
 
 namespace touchstone::program {
 
+/// Written only for methods that estimate their error.
+inline constexpr const char* kErrorEstimateFile = "error_estimate.csv";
+
 /// A CSV that grows as text, because a long trajectory does not fit in memory cell by cell.
 class CsvText {
  public:
@@ -27,7 +30,8 @@ class CsvText {
   std::string text_;
 };
 
-/// trajectory.csv, contacts.csv and energy.csv of one run. Everything is in the world frame; a planar scene
+/// trajectory.csv, contacts.csv and energy.csv of one run, and error_estimate.csv of a method that has an
+/// estimate. Everything is in the world frame; a planar scene
 /// is written as the plane z = 0 of space.
 template <int Dim>
 class Recorder {
@@ -44,6 +48,7 @@ class Recorder {
  private:
   void record_bodies(const std::string& t);
   void record_contacts(const std::string& t, double h);
+  void record_estimate(const std::string& t);
   void record_energy(const std::string& t, const EnergyLedger<Dim>& ledger);
   [[nodiscard]] double gap(const ContactImpulse<Dim>& contact) const;
 
@@ -52,6 +57,7 @@ class Recorder {
   CsvText trajectory_;
   CsvText contacts_;
   CsvText energy_;
+  CsvText estimate_;
 };
 
 }  // namespace touchstone::program

@@ -110,7 +110,9 @@ void print_summary(const RunRequest& request, const Method<Dim>& method, const E
     fmt::print("; lost to friction {:.6g} J, to impacts {:.6g} J; numerical drift {:.3g} J",
                account.friction_loss, account.impact_loss, account.drift);
   }
-  fmt::print("\nwrote trajectory.csv, contacts.csv and energy.csv in {}\n", request.out.string());
+  fmt::print("\nwrote trajectory.csv, contacts.csv{} and energy.csv in {}\n",
+             method.error_estimate().empty() ? "" : fmt::format(", {}", kErrorEstimateFile),
+             request.out.string());
 }
 
 template <int Dim>
@@ -118,6 +120,9 @@ bool run_scene(const Scene<Dim>& scene, const RunRequest& request) {
   const auto method = load(scene, request);
   Simulation<Dim> simulation(*method, request);
   harness::prepare_folder(request.out);
+  // Of another method's run: not to be taken for this one's.
+  std::error_code ignored;
+  if (method->error_estimate().empty()) std::filesystem::remove(request.out / kErrorEstimateFile, ignored);
   const std::string failure = simulation.simulate();
   write_files(simulation.recorder().files(request.out));
   print_summary(request, *method, simulation.ledger());

@@ -56,6 +56,50 @@ TEST(ClosestPoints, OfConcentricBallsHaveANormal) {
   EXPECT_EQ(points.gap, -2.0);
 }
 
+/// Two smooth bodies, by number, the first turned and placed at random: what the general query is for.
+std::pair<Shape<3>, Shape<3>> smooth_pair(int which) {
+  const Shape<3> ellipsoid{Ellipsoid<3>{{1.5, 0.7, 1.0}}, {}};
+  const Shape<3> superellipsoid{Superellipsoid<3>{{0.8, 1.2, 1.0}, {3.0, 4.0, 2.0}}, {{0.1, 0, 0.2}, {}}};
+  const Shape<3> capsule{Capsule{0.5, 1.0}, {}};
+  const Shape<3> sphere{Sphere<3>{0.6}, {}};
+  const std::pair<Shape<3>, Shape<3>> pairs[] = {{ellipsoid, ellipsoid},
+                                                 {ellipsoid, sphere},
+                                                 {superellipsoid, ellipsoid},
+                                                 {sphere, superellipsoid},
+                                                 {capsule, ellipsoid},
+                                                 {sphere, capsule},
+                                                 {superellipsoid, {HalfSpace<3>{}, {}}}};
+  return pairs[which % 7];
+}
+
+// Oracle: the points are on the surfaces, the gradients there along the normal, and nothing else is needed of
+// the closest points of convex bodies.
+TEST(ClosestPoints, OfAnySmoothPair) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (int trial = 0; trial < 210; ++trial) {
+    const auto [shape_a, shape_b] = smooth_pair(trial);
+    Body<3> a = body<3>("a", shape_a, {real(random), real(random), 3.5 + real(random)});
+    Body<3> b = body<3>("b", shape_b, {real(random), real(random), -0.5 + 0.5 * real(random)});
+    const auto turn = [&] {
+      return SpatialRotation(exp_rotation({real(random), real(random), real(random)}));
+    };
+    a.pose.rotation = turn();
+    b.pose.rotation = turn();
+    const ContactPoints<3> points = only_candidate(scene<3>(0.5, {a, b}));
+    EXPECT_TRUE(points.exact) << trial;
+    EXPECT_NEAR((points.point_a - points.point_b - points.gap * points.normal).norm(), 0.0, 1e-11) << trial;
+    const auto check = [&](const Body<3>& of, const Vector<3>& point, const Vector<3>& outward) {
+      const SurfaceJet<3> jet = make_surface(of.shape)->jet(0, of.pose.to_body(point));
+      EXPECT_NEAR(jet.value, 0.0, 1e-11) << trial;
+      EXPECT_NEAR((of.pose.rotation.matrix() * jet.gradient.normalized() - outward).norm(), 0.0, 1e-9)
+          << trial;
+    };
+    check(a, points.point_a, -points.normal);
+    check(b, points.point_b, points.normal);
+  }
+}
+
 // Central differences of the gap along a random motion against n . (v_a - v_b), what the linearisation rests
 // on.
 TEST(ClosestPoints, GapRateIsTheNormalRelativeVelocity) {
@@ -124,7 +168,10 @@ TEST(ContactGeometry, RefusesPairsItCannotDo) {
   EXPECT_NE(refusal(scene<2>(0.5, {polygon("p"), disc("d", {0, 0}, {0, 0, 0})})), "");
   EXPECT_NE(refusal(scene<2>(0.5, {polygon("p"), moving_plane})), "");
   EXPECT_EQ(refusal(scene<2>(0.5, {disc("d", {0, 3}, {0, 0, 0}), moving_plane})), "");
-  EXPECT_NE(refusal(scene<3>(0.5, {body<3>("c", {Capsule{}}, {0, 0, 3}), ground<3>()})), "");
+  const Body<3> capsule = body<3>("c", {Capsule{}}, {0, 0, 3});
+  EXPECT_NE(refusal(scene<3>(0.5, {capsule, ground<3>()})), "") << "may touch along a line";
+  EXPECT_NE(refusal(scene<3>(0.5, {capsule, body<3>("d", {Capsule{}}, {0, 0, 9})})), "");
+  EXPECT_EQ(refusal(scene<3>(0.5, {capsule, ball("b", {0, 0, 9})})), "");
   EXPECT_EQ(refusal(scene<3>(0.5, {body<3>("b", {Box<3>{}}, {0, 0, 3}), ground<3>()})), "");
 }
 

@@ -69,7 +69,7 @@ TEST(DiscRolling, BadInputIsExitCodeTwoWithOneMessage) {
       {{"--methods", "stewart_trinkle:magic=1"}, "method stewart_trinkle option 'magic': got '1'"},
       {{"--methods", "edge_limited:magic=1"}, "--methods: got 'edge_limited:magic=1', allowed: no options"},
       {{"--candidates", "magic"}, "option 'candidates': got 'magic'"},
-      {{"--sweeps", "magic"}, "--sweeps: got 'magic', allowed: edges, step_size, check"},
+      {{"--sweeps", "magic"}, "--sweeps: got 'magic', allowed: edges, step_size, check, engines"},
       {{"--until", "0"}, "--until: got '0'"}};
   for (const auto& [words, message] : cases) {
     const Finished run = test::run(program(scratch / "out", words));

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "experiments/scenarios/disc_rolling.h"
 
 namespace touchstone::harness {
@@ -50,6 +52,22 @@ TEST(MethodCase, ASceneThatTheMethodCannotRepresentIsUnsupportedAndNoError) {
   bouncing.scene = std::make_shared<Scene<2>>(scene);
   const Case one = make_case(bouncing);
   EXPECT_THROW(one.run(), Unsupported);
+}
+
+TEST(MethodKeys, AreThoseOfTheRegistryInItsOrder) {
+  const std::vector<std::string> keys = method_keys<3>();
+  ASSERT_EQ(keys.size(), methods<3>().size());
+  EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+  EXPECT_NE(std::find(keys.begin(), keys.end(), "implicit_ncp"), keys.end());
+}
+
+TEST(RunBeside, IsTheRunOfTheMethodWithItsOptions) {
+  const Scene<2> scene = disc_rolling_scene();
+  const MethodSpec coarse = parse_method("stewart_trinkle:edges=10");
+  const CaseRun<2> run = run_beside(scene, coarse, 0.01, 0.1);
+  EXPECT_EQ(run.kept.size(), 11u);
+  EXPECT_GT(run.largest_drift_J, 1e-3) << "a polygon";
+  EXPECT_LT(run_beside(scene, parse_method("implicit_ncp"), 0.01, 0.1).largest_drift_J, 1e-12);
 }
 
 TEST(MethodCase, CostGrowsWithTheSteps) {

@@ -177,6 +177,68 @@ TEST(RunCase, TheJudgeSeesAPositionThatDoesNotFollowTheVelocity) {
   EXPECT_GT(run_case(glider, {.h = 0.5, .until = 5}).residual.kinematics, 0.2);
 }
 
+/// A glider that is not one run, or has an estimate: 0.25 m off after the first step, 0.125 m after that.
+class Unsure final : public Glider {
+ public:
+  explicit Unsure(bool one_run)
+      : Glider([](int, BodyState<2>&) { return StepReport{}; }), one_run_(one_run) {}
+  Capabilities capabilities() const override { return {.one_run = one_run_}; }
+  std::span<const StateError<2>> error_estimate() const override { return error_; }
+  StepReport step(double h) override {
+    error_[0].position[0] = error_[0].position[0] == 0 ? 0.25 : 0.125;
+    error_[0].velocity = {0, 3, -4};
+    return Glider::step(h);
+  }
+
+ private:
+  std::vector<StateError<2>> error_{1};
+  bool one_run_;
+};
+
+TEST(RunCase, KeepsTheMethodsOwnEstimateOfItsError) {
+  Unsure unsure(true);
+  const CaseRun<2> run = run_case(unsure, {.h = 0.5, .until = 5});
+  ASSERT_TRUE(run.estimated_end && run.estimated_largest);
+  EXPECT_EQ(run.estimated_end->position_m, 0.125);
+  EXPECT_EQ(run.estimated_largest->position_m, 0.25);
+  EXPECT_EQ(run.estimated_largest->velocity_m_s, 3);
+  EXPECT_EQ(run.estimated_largest->angular_velocity_rad_s, 4);
+  EXPECT_EQ(run.estimated_largest->turn_rad, 0);
+  Glider sure;
+  EXPECT_FALSE(run_case(sure, {.h = 0.5, .until = 5}).estimated_end);
+}
+
+TEST(RunCase, HasNoResidualOfAStepWhereStatesAreNotOfOneRun) {
+  Unsure unsure(false);
+  const CaseRun<2> run = run_case(unsure, {.h = 0.5, .until = 5});
+  EXPECT_EQ(run.status, CaseStatus::ok);
+  EXPECT_TRUE(std::isnan(run.residual.largest()));
+  EXPECT_TRUE(std::isnan(run.residual.dynamics));
+}
+
+TEST(RunCase, KeepsEveryStepOnlyIfItIsToKeepThem) {
+  Glider glider;
+  const CaseRun<2> run = run_case(glider, {.h = 0.5, .until = 2, .report = {}, .keep_steps = true});
+  ASSERT_EQ(run.kept.size(), 5u);
+  for (std::size_t k = 0; k < run.kept.size(); ++k) {
+    EXPECT_EQ(run.kept[k].t_s, 0.5 * static_cast<double>(k));
+    EXPECT_DOUBLE_EQ(run.kept[k].state.at(0).pose.position.x(), run.kept[k].t_s);
+  }
+  Glider other;
+  EXPECT_TRUE(run_case(other, {.h = 0.5, .until = 2}).kept.empty());
+}
+
+TEST(RunCase, BooksWhatNoImpulseExplainsAsDrift) {
+  Glider glider([](int k, BodyState<2>& body) -> StepReport {
+    if (k == 3) body.velocity[0] = 2.0;
+    return {};
+  });
+  const CaseRun<2> run = run_case(glider, {.h = 0.5, .until = 5, .report = {}, .keep_steps = true});
+  EXPECT_DOUBLE_EQ(run.account.drift, 3.0);
+  EXPECT_EQ(run.account.friction_loss, 0.0);
+  EXPECT_EQ(run.account.impact_loss, 0.0);
+}
+
 TEST(RunCase, StopsBetweenStepsWhenInterrupted) {
   const InterruptScope scope;
   int last = 0;

@@ -22,7 +22,9 @@ class Puppet final : public Method<Dim> {
   std::span<const ContactImpulse<Dim>> contacts() const override { return contacts_; }
   StepReport step(double) override { return {}; }
   Options effective_options() const override { return {}; }
+  std::span<const StateError<Dim>> error_estimate() const override { return errors_; }
 
+  std::vector<StateError<Dim>> errors_;
   Capabilities capabilities_;
   std::vector<BodyState<Dim>> state_;
   std::vector<ContactImpulse<Dim>> contacts_;
@@ -161,6 +163,20 @@ TEST(Recorder, WritesEnergyAndWhereItWent) {
   run.ledger.book(0.5, before, run.method.state_, {}, {});
   run.recorder.record(0.5, 0.5, run.ledger);
   EXPECT_EQ(run.file("energy.csv"), std::string(kEnergyHeader) + "0,0,20,20,0,0,0\n0.5,1,20,21,0,0,1\n");
+}
+
+TEST(Recorder, WritesWhatAMethodTakesItsStateToBeOff) {
+  Recording<3> run({"b", "a"});
+  EXPECT_EQ(run.file("error_estimate.csv"), "no such file") << "no estimate, no file";
+  run.method.errors_.resize(3);  // two balls and the ground
+  run.method.errors_[0].position = {0, 3, 4};
+  run.method.errors_[0].turn = {0.5, 0, 0};
+  run.method.errors_[0].velocity << 0, 0, 2, 6, 8, 0;
+  run.recorder.record(0.5, 0.5, run.ledger);
+  EXPECT_EQ(run.file("error_estimate.csv"),
+            "t_s,body,position_m,turn_rad,velocity_m_s,angular_velocity_rad_s\n"
+            "0.5,a,0,0,0,0\n"
+            "0.5,b,5,0.5,2,10\n");
 }
 
 TEST(Recorder, LeavesLossesEmptyThatAMethodDoesNotTell) {

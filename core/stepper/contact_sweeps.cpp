@@ -1,0 +1,153 @@
+#include "core/stepper/contact_sweeps.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace touchstone {
+
+template <int Dim>
+void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z) {
+  const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
+  inverse_.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const MotionMatrix<Dim> matrix = problem.momentum_matrix(static_cast<int>(b));
+    inverse_[b] = matrix.inverse() * problem.momentum_scale(static_cast<int>(b)).asDiagonal();
+  }
+  contacts_.resize(problem.contacts().size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) freeze_contact(problem, i, z);
+  freeze_joints(problem, z);
+
+  nu_.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) nu_[b] = problem.free_velocity_of(static_cast<int>(b));
+  for (const Contact& contact : contacts_) {
+    Eigen::Matrix<double, kFriction + 1, 1> impulse;
+    impulse.template head<kFriction>() = contact.y;
+    impulse[kFriction] = contact.p;
+    push(contact, impulse);
+  }
+  for (const JointRow& row : joints_) {
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      if (row.place[k] >= 0) nu_[static_cast<std::size_t>(row.place[k])] += row.impulse * row.response[k];
+    }
+  }
+  const double velocity = problem.scale().velocity;
+  for (int round = 0; round < sweeps; ++round) {
+    const bool forward = round % 2 == 0;
+    for (JointRow& row : joints_) sweep(row);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const std::size_t at = forward ? i : contacts_.size() - 1 - i;
+      sweep(contacts_[at], problem.contacts()[at].law.mu, velocity);
+    }
+  }
+
+  for (std::size_t b = 0; b < bodies; ++b)
+    z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(b))) = nu_[b];
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLayout& at = problem.layout().contact(i);
+    z.template segment<kFriction>(at.friction) = contacts_[i].y;
+    z[at.normal] = contacts_[i].p;
+  }
+  for (const JointRow& row : joints_) z[row.column] = row.impulse;
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::size_t i,
+                                        const Eigen::VectorXd& z) {
+  problem.evaluate_state(i, z);
+  Contact& contact = contacts_[i];
+  const double velocity = problem.scale().velocity;
+  contact.unit = problem.prepared(i).mass * velocity;
+  contact.place = problem.places(i);
+  contact.gap_velocity = problem.separation(i) / problem.step_size();
+  Eigen::Matrix<double, kFriction + 1, kFriction + 1> delassus;
+  delassus.setZero();
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (contact.place[k] < 0) continue;
+    const auto body = static_cast<std::size_t>(contact.place[k]);
+    contact.wrench[k] = problem.unit_wrenches(i, k);
+    contact.response[k] = inverse_[body] * contact.wrench[k];
+    delassus += contact.wrench[k].transpose() * contact.response[k] / contact.unit;
+    contact.gap_velocity -=
+        contact.wrench[k].col(kFriction).dot(z.template segment<kVelocity>(kVelocity * contact.place[k])) /
+        contact.unit;
+  }
+  contact.normal_step = 1 / delassus(kFriction, kFriction);
+  const double largest =
+      delassus.template topLeftCorner<kFriction, kFriction>().cwiseAbs().rowwise().sum().maxCoeff();
+  contact.friction_step = largest > 0 ? velocity / largest : 0.0;
+  const ContactLayout& at = problem.layout().contact(i);
+  contact.y = z.template segment<kFriction>(at.friction);
+  contact.p = std::max(0.0, z[at.normal]);
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
+  joints_.clear();
+  for (const int joint : problem.joints()) {
+    problem.joint_block(joint, z, true, block_);
+    for (Eigen::Index r = block_.own; r < block_.size; ++r) {
+      JointRow row;
+      row.place = block_.place;
+      row.column = problem.joint_column(joint) + r - block_.own;
+      row.impulse = z[row.column];
+      row.constant = block_.f[r];
+      double denominator = 0;
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        if (row.place[k] < 0) continue;
+        row.gradient[k] = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
+        row.response[k] = -problem.momentum_matrix(row.place[k]).inverse() *
+                          block_.j.col(r).template segment<kVelocity>(block_.column[k]);
+        row.constant -= row.gradient[k].dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
+        denominator += row.gradient[k].dot(row.response[k]);
+      }
+      row.step = denominator != 0 ? 1 / denominator : 0.0;
+      joints_.push_back(row);
+    }
+  }
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::push(const Contact& contact, const Eigen::Matrix<double, kFriction + 1, 1>& change) {
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (contact.place[k] >= 0)
+      nu_[static_cast<std::size_t>(contact.place[k])] += contact.response[k] * change;
+  }
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::sweep(Contact& contact, double mu, double velocity) {
+  Eigen::Matrix<double, kFriction + 1, 1> speed = Eigen::Matrix<double, kFriction + 1, 1>::Zero();
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (contact.place[k] >= 0) {
+      speed += contact.wrench[k].transpose() * nu_[static_cast<std::size_t>(contact.place[k])] / contact.unit;
+    }
+  }
+  Eigen::Matrix<double, kFriction + 1, 1> change;
+  const double p = std::max(0.0, contact.p - contact.normal_step * (contact.gap_velocity + speed[kFriction]));
+  FrictionVector<Dim> y = contact.y - contact.friction_step / velocity * speed.template head<kFriction>();
+  const double length = y.norm();
+  if (length > mu * p) y *= mu * p / length;
+  change.template head<kFriction>() = y - contact.y;
+  change[kFriction] = p - contact.p;
+  contact.y = y;
+  contact.p = p;
+  push(contact, change);
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::sweep(JointRow& row) {
+  double phi = row.constant;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (row.place[k] >= 0) phi += row.gradient[k].dot(nu_[static_cast<std::size_t>(row.place[k])]);
+  }
+  const double change = -row.step * phi;
+  row.impulse += change;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (row.place[k] >= 0) nu_[static_cast<std::size_t>(row.place[k])] += change * row.response[k];
+  }
+}
+
+template class ContactSweeps<2>;
+template class ContactSweeps<3>;
+
+}  // namespace touchstone

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "core/stepper/step_problem.h"
+
+namespace touchstone {
+
+/// Projected Gauss-Seidel on a step's problem with its geometry frozen: contact after contact gets the normal
+/// impulse and the friction that its own rows ask for while the others stay, over and over. Converges slowly
+/// and from anywhere, so it tells Newton's method which of many contacts act and which of them slip.
+template <int Dim>
+class ContactSweeps {
+ public:
+  /// Freezes points, frames and gaps where `z` has them, and sweeps over all contacts and joints.
+  /// @param z  on return its velocities and impulses are those found; points and multipliers are left alone
+  void run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z);
+
+ private:
+  static constexpr int kVelocity = Dimension<Dim>::velocity;
+  static constexpr int kFriction = Dimension<Dim>::friction;
+  using Wrenches = ContactWrenches<Dim>;
+
+  struct Contact {
+    std::array<int, 2> place{-1, -1};
+    std::array<Wrenches, 2> wrench{};    ///< on each body per unit of (y, p) [N s, N m s]
+    std::array<Wrenches, 2> response{};  ///< change of each body's velocity per unit of (y, p)
+    double unit = 1.0;                   ///< of impulses, m V [N s]
+    double gap_velocity = 0.0;           ///< psi / h less what nu' adds to it [m/s]
+    double normal_step = 0.0;            ///< p per [m/s]
+    double friction_step = 0.0;          ///< y per unit of w
+    FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
+    double p = 0.0;
+  };
+  struct JointRow {
+    std::array<int, 2> place{-1, -1};
+    std::array<Twist<Dim>, 2> gradient{};  ///< of phi by nu'
+    std::array<Twist<Dim>, 2> response{};
+    double constant = 0.0;  ///< phi less what nu' adds to it
+    double step = 0.0;
+    Eigen::Index column = 0;  ///< in z
+    double impulse = 0.0;
+  };
+
+  void freeze_contact(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
+  void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
+  void sweep(Contact& contact, double mu, double velocity);
+  void sweep(JointRow& row);
+  void push(const Contact& contact, const Eigen::Matrix<double, kFriction + 1, 1>& change);
+
+  std::vector<Contact> contacts_;
+  std::vector<JointRow> joints_;
+  StepBlock<Dim> block_;
+  std::vector<MotionMatrix<Dim>> inverse_;  ///< of momentum_matrix(), times the row scale
+  std::vector<Twist<Dim>> nu_;
+};
+
+}  // namespace touchstone
