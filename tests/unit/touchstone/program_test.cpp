@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <regex>
 #include <thread>
 
 #include "experiments/harness/csv.h"
@@ -92,6 +93,33 @@ TEST(Program, RunsASceneAndWritesThreeTables) {
   EXPECT_NEAR(cell(energy, 20, "total_J"), 9.81, 1e-12);
 }
 
+TEST(Program, RunsEveryExampleSceneAndWritesTablesWithTheSameHeaders) {
+  const std::pair<const char*, const char*> headers[] = {
+      {"trajectory.csv",
+       "t_s,body,px_m,py_m,pz_m,qw,qx,qy,qz,vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s"},
+      {"contacts.csv",
+       "t_s,body_a,body_b,gap_m,normal_N,tangent_t_N,tangent_o_N,torsion_Nm,slip_m_s,spin_rad_s"},
+      {"energy.csv", "t_s,kinetic_J,potential_J,total_J,friction_loss_J,impact_loss_J,drift_J"}};
+  int scenes = 0;
+  for (const auto& file : std::filesystem::directory_iterator(EXAMPLE_SCENES)) {
+    const std::string name = file.path().stem().string();
+    const Scratch scratch;
+    const Finished run = test::run({TOUCHSTONE_PROGRAM, "run", scene(name), "--method", "implicit_ncp",
+                                    "--step", "0.001", "--until", "0.05", "--out", scratch / "out"});
+    EXPECT_EQ(run.code, 0) << name << ": " << run.err;
+    ASSERT_EQ(listing(scratch / "out"), kFiles) << name;
+    for (const auto& [table, header] : headers) {
+      const std::string text = slurp(scratch / "out" / table);
+      EXPECT_EQ(text.substr(0, text.find('\n')), header) << name << " " << table;
+    }
+    const Table energy = harness::read_csv(scratch / "out/energy.csv");
+    ASSERT_EQ(energy.rows.size(), 51u) << name;
+    EXPECT_EQ(cell(energy, 50, "t_s"), 0.05) << name;
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 12);
+}
+
 TEST(Program, RunsAPlanarSceneUnderAnotherMethodWithItsOptions) {
   const Scratch scratch;
   const Finished run = test::run({TOUCHSTONE_PROGRAM, "run", scene("disc_rolling"), "--method",
@@ -177,6 +205,17 @@ TEST(Program, ABadSceneIsExitCodeTwoAndTouchesNothing) {
       {"position = [0, 0, 1]", "position = [0, 0, 0.5]",
        ":29:12: body 'ball' position: got an overlap of 0.5 m with 'ground'"},
       {"[friction]", "[friction", ":15:"},
+      {"mass = 1.0\n", "", ":24:1: body 'ball' mass: got nothing, but it is required"},
+      {"normal = [0, 0, 1]", "normal = [0, 0, 2]", "body 'ground' shape.normal: got [0, 0, 2] of length 2"},
+      {"inertia = [0.4, 0.4, 0.4]", "inertia = [0.4, 0.4, 0.9]",
+       "body 'ball' inertia (largest principal moment): got 0.9"},
+      {"position = [0, 0, 1]", "position = [0, 0, nan]", "body 'ball' position[2]: got nan"},
+      {"name = \"ground\"", "name = \"ball\"", "body 2 name: got 'ball' twice"},
+      {"type = \"sphere\", radius = 1.0",
+       "type = \"intersection\", parts = [{ type = \"sphere\", radius = 1 }, { type = \"sphere\", radius = "
+       "1, "
+       "center = [3, 0, 0] }]",
+       "body 'ball' shape: got parts whose common depth is -"},
   };
   spit(scratch / "out/trajectory.csv", "earlier");
   for (const auto& [old, now, message] : faults) {
@@ -185,8 +224,10 @@ TEST(Program, ABadSceneIsExitCodeTwoAndTouchesNothing) {
     spit(scratch / "bad.toml", text.replace(text.find(old), std::string(old).size(), now));
     const std::string file = scratch / "bad.toml";
     const Finished run = test::run(replaced(spin(scratch / "out"), scene("sphere_spin"), file));
-    expect_refused(run, 2, file + message, scratch / "out", "trajectory.csv");
-    expect_refused(test::run({TOUCHSTONE_PROGRAM, "validate", file}), 2, file + message, scratch / "out",
+    expect_refused(run, 2, message, scratch / "out", "trajectory.csv");
+    // file:line:column: key
+    EXPECT_TRUE(std::regex_search(run.err, std::regex("bad[.]toml:[0-9]+:[0-9]+: "))) << run.err;
+    expect_refused(test::run({TOUCHSTONE_PROGRAM, "validate", file}), 2, message, scratch / "out",
                    "trajectory.csv");
   }
   EXPECT_EQ(slurp(scratch / "out/trajectory.csv"), "earlier");
