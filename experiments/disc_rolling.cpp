@@ -29,7 +29,6 @@ using namespace touchstone::disc_rolling;
 constexpr const char* kScenario = "disc_rolling";
 constexpr double kStepOfEdgesSweep = 0.01;  // [s]
 constexpr int kEdgesOfStepSweep = 1000;
-constexpr int kEngineSamples = 40;       ///< of a case of the sweep `engines`
 constexpr double kStepOfCheck = 0.0002;  // [s]; far below 2 pi / (N omega), where only the edges limit
 
 /// The points of the sweep `engines`: fine steps over as long as kMostEngineSteps take.

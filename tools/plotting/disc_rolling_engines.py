@@ -132,6 +132,6 @@ def energy_over_time(directory):
     style.headline(
         figure, f"The same polygon keeps from {min(kept):.0f} to {max(kept):.0f} % of its energy, as the method has it",
         f"A disc as a polygon of {EDGES_OF_CURVES} edges, h = {STEP_OF_CURVES} s, five edges a step, in one method of "
-        "each engine. Those that see every\ncorner that a step passes brake it; those that see one or two roll on, "
-        "faster than the exact polygon.")
+        "each engine. Those that see every\ncorner that a step passes brake it; those that see one or two keep about "
+        "as much as the exact polygon, or more.")
     return figure

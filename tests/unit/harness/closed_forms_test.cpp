@@ -9,6 +9,7 @@
 #include "experiments/harness/judge.h"
 #include "experiments/scenarios/closed_forms.h"
 #include "experiments/scenarios/table.h"
+#include "tests/unit/harness/cells.h"
 #include "tests/unit/harness/process.h"
 
 namespace touchstone {
@@ -17,6 +18,7 @@ namespace {
 using harness::Row;
 using harness::Table;
 using test::Finished;
+using test::number;
 using test::Scratch;
 using test::slurp;
 
@@ -128,23 +130,6 @@ TEST(ClosedFormScenarios, StandInTheTableOfScenariosSorted) {
   }
   EXPECT_TRUE(std::is_sorted(scenarios().begin(), scenarios().end(),
                              [](const auto& a, const auto& b) { return a.key < b.key; }));
-}
-
-/// The number in `column` of the only row with these cells.
-double number(const Table& table, const std::vector<std::pair<std::string, std::string>>& where,
-              const std::string& column) {
-  double value = std::nan("");
-  int found = 0;
-  for (const Row& row : table.rows) {
-    const bool meant = std::all_of(where.begin(), where.end(), [&](const auto& want) {
-      return row[table.column(want.first, "t")] == want.second;
-    });
-    if (!meant) continue;
-    ++found;
-    EXPECT_TRUE(harness::parse_number(row[table.column(column, "t")], value)) << column;
-  }
-  EXPECT_EQ(found, 1);
-  return value;
 }
 
 TEST(ClosedForms, ErrorsAreWhatTheStepperMakesInClosedForm) {

@@ -8,6 +8,7 @@
 
 #include "experiments/harness/csv.h"
 #include "experiments/scenarios/disc_rolling.h"
+#include "tests/unit/harness/cells.h"
 #include "tests/unit/harness/process.h"
 
 namespace touchstone::harness {
@@ -15,6 +16,7 @@ namespace {
 
 using test::Finished;
 using test::listing;
+using test::number;
 using test::Process;
 using test::Scratch;
 using test::slurp;
@@ -23,22 +25,6 @@ using test::spit;
 std::vector<std::string> program(const std::filesystem::path& out, std::vector<std::string> words) {
   words.insert(words.begin(), {DISC_ROLLING, "--out", out.string()});
   return words;
-}
-
-/// The number in `column` of the only row whose cells begin as in `where`.
-double number(const Table& table, const std::vector<std::pair<std::string, std::string>>& where,
-              const std::string& column) {
-  double value = 0;
-  int found = 0;
-  for (const Row& row : table.rows) {
-    bool meant = true;
-    for (const auto& [name, cell] : where) meant = meant && row[table.column(name, "t")] == cell;
-    if (!meant) continue;
-    ++found;
-    EXPECT_TRUE(parse_number(row[table.column(column, "t")], value)) << column;
-  }
-  EXPECT_EQ(found, 1);
-  return value;
 }
 
 TEST(DiscRollingScene, RollsWithoutSlipOnTheGround) {
