@@ -318,7 +318,8 @@ bool StepProblem<Dim>::is_spurious(std::size_t i) const {
   constexpr double kThrough = 1e-6;  // of L; overlap that no tolerance explains
   const ContactState<Dim>& state = states_[i];
   return state.side[0].normal.dot(state.frame.normal) > 0 ||
-         (state.p <= 0 && separation(i) < -kThrough * row_options_.scale.length);
+         (row_options_.gap == GapFunction::workspace && state.p <= 0 &&
+          separation(i) < -kThrough * row_options_.scale.length);
 }
 
 template <int Dim>

@@ -58,12 +58,12 @@ void judge(const RandomStep<Dim>& step, Result& result) {
   }
   std::vector<std::array<std::vector<double>, 2>> multipliers;
   for (std::size_t i = 0; i < stepper.contacts().size(); ++i) {
-    const ContactLayout& at = stepper.problem().layout().contact(i);
-    const ContactPair<Dim>& pair = stepper.problem().contacts()[i];
-    const double* z = stepper.solution().data();
-    multipliers.push_back(
-        {std::vector<double>(z + at.multipliers_1, z + at.multipliers_1 + pair.side_1.multipliers()),
-         std::vector<double>(z + at.multipliers_2, z + at.multipliers_2 + pair.side_2.multipliers())});
+    const std::vector<double>& both = stepper.contact_solution(i).multipliers;
+    const auto body = static_cast<std::size_t>(stepper.contacts()[i].body_a);
+    const auto surface = make_surface(step.scene.bodies[body].shape);
+    const auto first = make_side(*surface).multipliers();
+    multipliers.push_back({std::vector<double>(both.begin(), both.begin() + first),
+                           std::vector<double>(both.begin() + first, both.end())});
   }
   const certificate::Checker<Dim> checker(step.scene);
   const certificate::Step<Dim> answer{before, stepper.state(), stepper.contacts(), {}, step.h, multipliers};
