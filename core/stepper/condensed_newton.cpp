@@ -1,22 +1,24 @@
 #include "core/stepper/condensed_newton.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "core/contact/patch_middle.h"
 
 namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;       ///< tried before anything else
-constexpr int kRestoringSteps = 40;  ///< tried last
-constexpr int kSweeps = 50;          ///< before those
-constexpr int kUndamped = 8;         ///< of those, before every other one is shortened
-constexpr double kDamping = 0.3;     ///< to this part
-constexpr double kAstray = 1e3;      ///< residual at which a search without a line search is given up
-constexpr double kRestore = 1e-3;    ///< residual of closest points above which they are found anew
-constexpr double kSpurious = 2.0;    ///< residual of points that satisfy their rows and are no closest points
+constexpr int kFullSteps = 15;     ///< tried before anything else
+constexpr int kRescueSteps = 60;   ///< of each rescue
+constexpr int kUndamped = 8;       ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;   ///< to this part
+constexpr double kAstray = 1e3;    ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;  ///< residual of closest points above which they are found anew
+constexpr double kSpurious = 2.0;  ///< residual of points that satisfy their rows and are no closest points
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
@@ -28,6 +30,17 @@ constexpr double kChordGain = 0.03;  ///< factor of the residual that such a ste
 /// Smallest pivot, relative to its column, with which closest points are eliminated.
 constexpr double kRegular = 1e-8;
 constexpr double kRegularisation = 1e-9;  ///< see newton_step()
+
+/// What is tried where the search from the given start fails, in this order.
+struct Rescue {
+  int sweeps = 0;            ///< of Gauss-Seidel, for a start
+  bool from_cold = false;    ///< with closest points in the middle of flat patches, and not where they were
+  bool line_search = false;  ///< or full steps that restore lost points
+};
+constexpr std::array kRescues = {
+    Rescue{50, false, false}, Rescue{50, true, true},    Rescue{50, true, false},
+    Rescue{500, false, true}, Rescue{500, false, false}, Rescue{500, true, true},
+    Rescue{5, true, true},    Rescue{5, false, false},   Rescue{5000, true, true}};
 
 /// a + b - sqrt(a^2 + b^2), zero exactly where 0 <= a _|_ b >= 0 (Fischer 1992).
 struct FischerBurmeisterTerm {
@@ -71,14 +84,19 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     z.head(n) = start_.head(n);
     report = attempt({.line_search = true, .limit = options_.max_iterations});
   }
-  if (!report.solved() && !problem.contacts().empty()) {
+  for (const Rescue& rescue : kRescues) {
+    if (report.solved() || problem.contacts().empty()) break;
     z.head(n) = start_.head(n);
+    for (std::size_t i = 0; rescue.from_cold && i < problem.contacts().size(); ++i)
+      problem.find_points(i, z, &patch_middle<Dim>);
     evaluate(z);
     static_cast<void>(restore(z));
-    sweeps_.run(problem, kSweeps, z);
+    sweeps_.run(problem, rescue.sweeps, z);
     evaluate(z);
     static_cast<void>(restore(z));
-    report = attempt({.restores = true, .limit = std::min(kRestoringSteps, options_.max_iterations)});
+    report = attempt({.line_search = rescue.line_search,
+                      .restores = !rescue.line_search,
+                      .limit = std::min(kRescueSteps, options_.max_iterations)});
   }
   report.iterations = iterations;
   return report;

@@ -28,7 +28,7 @@ struct ImplicitOptions {
   double tolerance = 1e-13;
   /// Where rounding keeps a search from the tolerance (mass ratios of 1e4, say) a step is solved if the
   /// residual is at most this, or at most the tolerance if that is larger.
-  static constexpr double kAcceptable = 1e-11;
+  static constexpr double kAcceptable = 2e-12;
   int max_iterations = 100;  ///< Newton steps of one attempt; >= 1
 };
 
