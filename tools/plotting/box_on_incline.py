@@ -47,12 +47,15 @@ def draw_regions(axes, k, limit):
 def places(cells, limit):
     """Where cells are drawn: those beside a threshold moved away from it, so that its two sides can be told apart."""
     drawn = []
-    for tangent, mu, threshold, offset in zip(cells.numbers("tangent"), cells.numbers("mu"), cells.texts("threshold"),
-                                              cells.numbers("offset")):
+    for k, tangent, mu, threshold, offset in zip(cells.numbers("aspect"), cells.numbers("tangent"), cells.numbers("mu"),
+                                                 cells.texts("threshold"), cells.numbers("offset")):
+        apart = APART * limit
+        if (threshold == "slide_tip" and offset > 0) or (threshold == "tip_slide" and offset < 0):
+            apart = min(apart, 0.3 * (tip_in_place(k, tangent) - k))  # stay within the strip between the two
         if threshold == "tip_in_place":
-            tangent += np.copysign(APART * limit, offset)
+            tangent += np.copysign(apart, offset)
         elif threshold:
-            mu += np.copysign(APART * limit, offset)
+            mu += np.copysign(apart, offset)
         drawn.append((tangent, mu))
     return drawn
 
@@ -121,7 +124,7 @@ def wrong_cells(directory):
 
 
 def draw_wrong_panel(axes, rows, method, space):
-    limit = 3.4
+    limit = 4.5
     axes.plot([0, 1], [0, 1], color="#B0B0B0", linewidth=1.0, zorder=1)
     axes.plot([1, 1], [1, limit], color="#B0B0B0", linewidth=1.0, zorder=1)
     axes.plot([1, limit], [1, 1], color="#B0B0B0", linewidth=1.0, zorder=1)
@@ -140,8 +143,8 @@ def draw_wrong_panel(axes, rows, method, space):
         points["failed" if status == "failed" else name].append((t / k, m / k))
     axes.set_xlim(0, limit)
     axes.set_ylim(0, limit)
-    axes.set_xticks([0, 1, 2, 3])
-    axes.set_yticks([0, 1, 2, 3])
+    axes.set_xticks([0, 1, 2, 3, 4])
+    axes.set_yticks([0, 1, 2, 3, 4])
     name = f"{method}, plane" if space == "plane" else method
     if set(rows.texts("status")) == {"unsupported"}:
         axes.set_title(f"{name}\n", fontsize=8.5)
