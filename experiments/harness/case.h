@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,8 +40,6 @@ struct CaseResult {
   CaseStatus status = CaseStatus::ok;
   std::string reason;  ///< empty if ok
   std::vector<std::vector<Row>> tables;
-  /// What the case itself measured of the work that it compares, for timing.csv [s]; none if it did not.
-  std::optional<double> measured_s = std::nullopt;
 };
 
 struct Case {

@@ -8,13 +8,12 @@ using Json = nlohmann::json;
 
 std::string case_text(const std::string& key, const FinishedCase& finished) {
   const CaseResult& result = finished.result;
-  Json json{{"case", key},
-            {"status", to_string(result.status)},
-            {"reason", result.reason},
-            {"tables", result.tables},
-            {"wall_s", finished.wall_s}};
-  if (result.measured_s) json["measured_s"] = *result.measured_s;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return Json{{"case", key},
+              {"status", to_string(result.status)},
+              {"reason", result.reason},
+              {"tables", result.tables},
+              {"wall_s", finished.wall_s}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 KeyedCase parse_case_text(std::string_view text) {
@@ -25,7 +24,6 @@ KeyedCase parse_case_text(std::string_view text) {
   json.at("reason").get_to(one.finished.result.reason);
   json.at("tables").get_to(one.finished.result.tables);
   json.at("wall_s").get_to(one.finished.wall_s);
-  if (json.contains("measured_s")) one.finished.result.measured_s = json.at("measured_s").get<double>();
   return one;
 }
 

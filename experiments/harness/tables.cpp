@@ -51,12 +51,11 @@ Table result_table(const Experiment& experiment, std::size_t index, std::span<co
 
 Table timing_table(const Experiment& experiment, std::span<const Case> cases, const Results& results) {
   Table table{identity_columns(experiment), {}};
-  append(table.header, {"status", "wall_s", "measured_s"});
+  append(table.header, {"status", "wall_s"});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const FinishedCase& finished = results[i].value();
     Row row = identity_cells(experiment, cases[i]);
-    append(row, {std::string(to_string(finished.result.status)), number_cell(finished.wall_s),
-                 finished.result.measured_s ? number_cell(*finished.result.measured_s) : ""});
+    append(row, {std::string(to_string(finished.result.status)), number_cell(finished.wall_s)});
     table.rows.push_back(std::move(row));
   }
   sort_rows(table);
