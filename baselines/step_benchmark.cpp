@@ -72,7 +72,7 @@ void register_benchmarks() {
     benchmark::RegisterBenchmark(
         name.c_str(), [=](benchmark::State& state) { time_steps(state, key, options, spin, stretch); });
   };
-  for (const std::string solver : {"path", "semismooth"}) {
+  for (const std::string solver : {"condensed", "path", "semismooth"}) {
     add("implicit_ncp rolling " + solver, "implicit_ncp", {{"solver", solver}}, 3, kRollingStretch);
     add("implicit_ncp sliding " + solver, "implicit_ncp", {{"solver", solver}}, 0, kSlidingStretch);
   }

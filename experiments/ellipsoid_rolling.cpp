@@ -259,7 +259,7 @@ CommandLineSpec command_line() {
       .examples =
           "  ellipsoid_rolling                              what is committed\n"
           "  ellipsoid_rolling --scenarios ellipsoid_rolling --step-sizes 0.02,0.01 --out /tmp/roll\n",
-      .methods = {"implicit_ncp", "stewart_trinkle", kTruth},
+      .methods = {"implicit_ncp", "implicit_ncp_extrapolated", "stewart_trinkle", kTruth},
       .axes =
           {{"step-sizes",
             "step sizes h [s]; paths are kept at 0.01",

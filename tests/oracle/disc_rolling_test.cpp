@@ -100,7 +100,8 @@ TEST_P(DiscRolling, FallsFreelyAndStopsOnThePlaneWithoutPenetrating) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SolversAndGaps, DiscRolling,
-                         testing::Combine(testing::Values(Solver::condensed, Solver::path, Solver::semismooth),
+                         testing::Combine(testing::Values(Solver::condensed, Solver::path,
+                                                          Solver::semismooth),
                                           testing::Values(GapFunction::workspace, GapFunction::distance)));
 
 TEST(DiscRollingLong, DriftsByLessThan1e10InAMillionSteps) {
