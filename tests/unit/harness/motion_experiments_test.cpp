@@ -77,7 +77,7 @@ TEST_P(MotionExperiment, SolvesEveryStepToTheJudgesSatisfaction) {
     EXPECT_GT(number(summary, row, "steps"), 1);
     // The ledger's sum is the change of energy.
     EXPECT_NEAR(number(summary, row, "energy_change_J"),
-                number(summary, row, "drift_J") - number(summary, row, "friction_loss_J") -
+                number(summary, row, "energy_drift_J") - number(summary, row, "friction_loss_J") -
                     number(summary, row, "impact_loss_J"),
                 1e-12);
   }
