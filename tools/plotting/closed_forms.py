@@ -53,7 +53,7 @@ def cell_map(directory, quantity, paint, title, text, scale, scale_label):
     scenarios = {dimension: sorted(set(table.where(dimension=float(dimension)).texts("scenario"))) for dimension in (2, 3)}
     figure, [panels] = style.new_figure(
         12.2, 7.2, panels=2, sharey=True, gridspec_kw={"width_ratios": [len(scenarios[2]), len(scenarios[3])]})
-    figure.subplots_adjust(left=0.15, right=0.925, bottom=0.13, top=0.83, wspace=0.03)
+    figure.subplots_adjust(left=0.175, right=0.925, bottom=0.13, top=0.83, wspace=0.03)
     for axes, dimension in zip(panels, (2, 3)):
         for _, row in table.where(dimension=float(dimension)).rows:
             column, line = scenarios[dimension].index(row["scenario"]), methods.index(row["method"])
