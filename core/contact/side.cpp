@@ -4,15 +4,14 @@ namespace touchstone {
 
 namespace {
 
-/// N = g/|g| of Eq. 9 and dN/d xi = (I - N N^T) H / |g|.
+/// N = g/|g| of Eq. 9.
 template <int Dim>
 void smooth_normal(const SurfaceJet<Dim>& jet, const Matrix<Dim>& rotation, SideState<Dim>& state) {
   state.values[0] = jet.value;
   state.gradients[0] = rotation * jet.gradient;
-  const double length = state.gradients[0].norm();
-  state.normal = state.gradients[0] / length;
-  const Matrix<Dim> hessian = rotation * jet.hessian * rotation.transpose();
-  state.curvature = (hessian - state.normal * (state.normal.transpose() * hessian)) / length;
+  state.length = state.gradients[0].norm();
+  state.normal = state.gradients[0] / state.length;
+  state.hessian = jet.hessian;
 }
 
 /// N = sum l_i grad f_i, the KKT form of Eqs. 20-22 (with the misprint of Eq. 22 mended: each gradient at its
@@ -20,7 +19,7 @@ void smooth_normal(const SurfaceJet<Dim>& jet, const Matrix<Dim>& rotation, Side
 template <int Dim>
 void intersection_normal(const Side<Dim>& side, const Vector<Dim>& x_body, const Matrix<Dim>& rotation,
                          const double* multipliers, SideState<Dim>& state) {
-  Matrix<Dim> hessian = Matrix<Dim>::Zero();
+  state.hessian.setZero();
   state.normal.setZero();
   for (int i = 0; i < side.surface->count(); ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -28,9 +27,8 @@ void intersection_normal(const Side<Dim>& side, const Vector<Dim>& x_body, const
     state.values[index] = jet.value;
     state.gradients[index] = rotation * jet.gradient;
     state.normal += multipliers[i] * state.gradients[index];
-    hessian += multipliers[i] * jet.hessian;
+    state.hessian += multipliers[i] * jet.hessian;
   }
-  state.curvature = rotation * hessian * rotation.transpose();
 }
 
 }  // namespace
@@ -38,10 +36,9 @@ void intersection_normal(const Side<Dim>& side, const Vector<Dim>& x_body, const
 template <int Dim>
 void evaluate_side(const Side<Dim>& side, const Pose<Dim>& pose, const double* multipliers,
                    SideState<Dim>& state) {
-  const Matrix<Dim> rotation = pose.rotation.matrix();
+  const Matrix<Dim>& rotation = pose.rotation.matrix();
   if (side.kind == SideKind::plane) {
     state.normal = rotation * side.surface->plane()->normal;
-    state.curvature.setZero();
     return;
   }
   const Vector<Dim> x_body = rotation.transpose() * state.arm;
@@ -52,7 +49,24 @@ void evaluate_side(const Side<Dim>& side, const Pose<Dim>& pose, const double* m
   }
 }
 
+/// dN/d xi: (I - N N^T) H / |g| of a smooth side, sum_i l_i H_i of an intersection.
+template <int Dim>
+void differentiate_side(const Side<Dim>& side, const Pose<Dim>& pose, SideState<Dim>& state) {
+  if (side.kind == SideKind::plane) {
+    state.curvature.setZero();
+    return;
+  }
+  const Matrix<Dim>& rotation = pose.rotation.matrix();
+  const Matrix<Dim> hessian = rotation * state.hessian * rotation.transpose();
+  state.curvature =
+      side.kind == SideKind::intersection
+          ? hessian
+          : Matrix<Dim>((hessian - state.normal * (state.normal.transpose() * hessian)) / state.length);
+}
+
 template void evaluate_side(const Side<2>&, const Pose<2>&, const double*, SideState<2>&);
 template void evaluate_side(const Side<3>&, const Pose<3>&, const double*, SideState<3>&);
+template void differentiate_side(const Side<2>&, const Pose<2>&, SideState<2>&);
+template void differentiate_side(const Side<3>&, const Pose<3>&, SideState<3>&);
 
 }  // namespace touchstone

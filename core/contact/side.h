@@ -49,10 +49,12 @@ inline PlaneChart<3> plane_basis(const Vector<3>& n) {
 ///   d N = curvature d xi + d theta x N + sum_i gradients[i] d l_i   (the last for intersections only).
 template <int Dim>
 struct SideState {
-  Vector<Dim> point = Vector<Dim>::Zero();   ///< a [m]
-  Vector<Dim> arm = Vector<Dim>::Zero();     ///< r = a - p [m]
-  Vector<Dim> normal = Vector<Dim>::Zero();  ///< N, outward; of unit length unless the kind is intersection
-  Matrix<Dim> curvature = Matrix<Dim>::Zero();
+  Vector<Dim> point = Vector<Dim>::Zero();    ///< a [m]
+  Vector<Dim> arm = Vector<Dim>::Zero();      ///< r = a - p [m]
+  Vector<Dim> normal = Vector<Dim>::Zero();   ///< N, outward; of unit length unless the kind is intersection
+  Matrix<Dim> hessian = Matrix<Dim>::Zero();  ///< of f, or of sum_i l_i f_i, body axes
+  double length = 1.0;                        ///< |grad f| of a smooth side
+  Matrix<Dim> curvature = Matrix<Dim>::Zero();      ///< filled by differentiate_side() only
   PlaneChart<Dim> chart = PlaneChart<Dim>::Zero();  ///< d a / d s of a plane
   std::vector<double> values;                       ///< f_i(a) [m], one an inequality; none for a plane
   std::vector<Vector<Dim>> gradients;               ///< grad f_i(a), world axes
@@ -64,11 +66,15 @@ struct SideState {
   }
 };
 
-/// Fills everything but `point` and `arm` from the surface; `pose.position` is relative to the contact's
-/// origin.
+/// Fills everything but `point`, `arm` and `curvature` from the surface; `pose.position` is relative to the
+/// contact's origin.
 /// @param multipliers  l, side.multipliers() entries
 template <int Dim>
 void evaluate_side(const Side<Dim>& side, const Pose<Dim>& pose, const double* multipliers,
                    SideState<Dim>& state);
+
+/// Fills `curvature` of a side that was evaluated at the same pose.
+template <int Dim>
+void differentiate_side(const Side<Dim>& side, const Pose<Dim>& pose, SideState<Dim>& state);
 
 }  // namespace touchstone

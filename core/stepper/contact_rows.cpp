@@ -56,7 +56,7 @@ Eigen::Index closeness_rows(const RowContext<Dim>& c, Eigen::Index row) {
     Eigen::Matrix<double, Dim - 1, Dim> on_normal;
     for (int i = 0; i < Dim - 1; ++i) {
       on_normal.row(i) =
-          per_length * c.state.separation.transpose() * frame.derivative[static_cast<std::size_t>(i)];
+          per_length * c.state.separation.transpose() * c.state.frame_derivative[static_cast<std::size_t>(i)];
     }
     d.template frame<Dim - 1>(row, on_normal);
   }
@@ -81,7 +81,7 @@ Eigen::Index alignment_rows(const RowContext<Dim>& c, Eigen::Index row) {
     d.template body_normal<Dim - 1>(row, 0, frame.tangents.transpose());
     Eigen::Matrix<double, Dim - 1, Dim> on_normal;
     for (int i = 0; i < Dim - 1; ++i) {
-      on_normal.row(i) = normal_1.transpose() * frame.derivative[static_cast<std::size_t>(i)];
+      on_normal.row(i) = normal_1.transpose() * c.state.frame_derivative[static_cast<std::size_t>(i)];
     }
     d.template frame<Dim - 1>(row, on_normal);
   }
@@ -177,7 +177,7 @@ void slip_derivative(const RowContext<Dim>& c, Eigen::Index row,
   Rows on_normal = Rows::Zero();
   for (int i = 0; i < Dim - 1; ++i) {
     on_normal +=
-        on_v.col(i) * (state.slip_velocity.transpose() * state.frame.derivative[static_cast<std::size_t>(i)]);
+        on_v.col(i) * (state.slip_velocity.transpose() * state.frame_derivative[static_cast<std::size_t>(i)]);
   }
   if constexpr (Dim == 3) on_normal += on_v.col(2) * state.spin_velocity.transpose();
   d.template frame<R>(row, on_normal);
@@ -227,9 +227,12 @@ void momentum_rows(const RowContext<Dim>& c) {
   const FrictionVector<Dim> friction = per_y.cwiseProduct(state.y);
   const Vector<Dim> force =
       unit * state.p * frame.normal + frame.tangents * friction.template head<Dim - 1>();
-  Matrix<Dim> force_on_normal = unit * state.p * Matrix<Dim>::Identity();
-  for (int i = 0; i < Dim - 1; ++i)
-    force_on_normal += friction[i] * frame.derivative[static_cast<std::size_t>(i)];
+  Matrix<Dim> force_on_normal;
+  if (c.jacobian != nullptr) {
+    force_on_normal = unit * state.p * Matrix<Dim>::Identity();
+    for (int i = 0; i < Dim - 1; ++i)
+      force_on_normal += friction[i] * state.frame_derivative[static_cast<std::size_t>(i)];
+  }
 
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     const BodyAtEnd<Dim>& body = state.body[k];
@@ -269,8 +272,7 @@ void momentum_rows(const RowContext<Dim>& c) {
 
 template <int Dim>
 void evaluate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
-                      const ContactLayout& at, const ContactRowOptions&, const Eigen::VectorXd& z,
-                      ContactState<Dim>& state) {
+                      const ContactLayout& at, const Eigen::VectorXd& z, ContactState<Dim>& state) {
   read_point(pair.side_1, prepared, 0, at.point_1, z, state);
   read_point(pair.side_2, prepared, 1, at.point_2, z, state);
   evaluate_side(pair.side_1, state.body[0].pose, z.data() + at.multipliers_1, state.side[0]);
@@ -279,7 +281,6 @@ void evaluate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& 
   state.normal_length = owner.normal.norm();
   const Vector<Dim> n = owner.normal / state.normal_length;
   state.frame = contact_frame(n, prepared.reference);
-  state.frame_curvature = (owner.curvature - n * (n.transpose() * owner.curvature)) / state.normal_length;
   state.separation = state.side[0].point - state.side[1].point;
   constexpr int kAngular = Dimension<Dim>::angular;
   state.slip_velocity = point_velocity<Dim>(state.body[0].nu, state.side[0].arm) -
@@ -289,6 +290,17 @@ void evaluate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& 
   state.y = z.template segment<Dimension<Dim>::friction>(at.friction);
   state.p = z[at.normal];
   state.s = z[at.slip];
+}
+
+template <int Dim>
+void differentiate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                           ContactState<Dim>& state) {
+  differentiate_side(pair.side_1, state.body[0].pose, state.side[0]);
+  differentiate_side(pair.side_2, state.body[1].pose, state.side[1]);
+  state.frame_derivative = frame_derivative(state.frame, prepared.reference);
+  const Vector<Dim>& n = state.frame.normal;
+  const Matrix<Dim>& curvature = state.side[1].curvature;
+  state.frame_curvature = (curvature - n * (n.transpose() * curvature)) / state.normal_length;
 }
 
 template <int Dim>
@@ -314,9 +326,11 @@ void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prep
 }
 
 template void evaluate_contact(const ContactPair<2>&, const PreparedContact<2>&, const ContactLayout&,
-                               const ContactRowOptions&, const Eigen::VectorXd&, ContactState<2>&);
+                               const Eigen::VectorXd&, ContactState<2>&);
+template void differentiate_contact(const ContactPair<2>&, const PreparedContact<2>&, ContactState<2>&);
 template void evaluate_contact(const ContactPair<3>&, const PreparedContact<3>&, const ContactLayout&,
-                               const ContactRowOptions&, const Eigen::VectorXd&, ContactState<3>&);
+                               const Eigen::VectorXd&, ContactState<3>&);
+template void differentiate_contact(const ContactPair<3>&, const PreparedContact<3>&, ContactState<3>&);
 template void contact_rows(const ContactPair<2>&, const PreparedContact<2>&, const ContactLayout&,
                            const ContactRowOptions&, const ContactState<2>&, Eigen::VectorXd&,
                            Eigen::MatrixXd*);

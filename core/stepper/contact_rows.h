@@ -72,14 +72,17 @@ struct ContactState {
   std::array<SideState<Dim>, 2> side{};
   std::array<BodyAtEnd<Dim>, 2> body{};
   ContactFrame<Dim> frame{};
-  double normal_length = 1.0;                         ///< |N_2|; 1 unless body 2 is an intersection
-  Matrix<Dim> frame_curvature = Matrix<Dim>::Zero();  ///< d n = this d xi_2 + d theta_2 x n (+ multipliers)
-  Vector<Dim> separation = Vector<Dim>::Zero();       ///< a_1 - a_2
+  double normal_length = 1.0;                       ///< |N_2|; 1 unless body 2 is an intersection
+  Vector<Dim> separation = Vector<Dim>::Zero();     ///< a_1 - a_2
   Vector<Dim> slip_velocity = Vector<Dim>::Zero();  ///< of body 1 against body 2 at the closest points [m/s]
   Angular<Dim> spin_velocity = Angular<Dim>::Zero();  ///< omega_1 - omega_2
   FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
   double p = 0.0;  ///< p_n / (m V)
   double s = 0.0;  ///< sigma / V
+
+  // Filled by differentiate_contact() only, as are the sides' curvatures.
+  FrameDerivative<Dim> frame_derivative{};
+  Matrix<Dim> frame_curvature = Matrix<Dim>::Zero();  ///< d n = this d xi_2 + d theta_2 x n (+ multipliers)
 };
 
 struct ContactRowOptions {
@@ -93,10 +96,15 @@ struct ContactRowOptions {
 /// caller.
 template <int Dim>
 void evaluate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
-                      const ContactLayout& at, const ContactRowOptions& options, const Eigen::VectorXd& z,
-                      ContactState<Dim>& state);
+                      const ContactLayout& at, const Eigen::VectorXd& z, ContactState<Dim>& state);
 
-/// Writes the contact's own rows and adds its wrench to the bodies' momentum rows; J may be null.
+/// What derivatives need beyond what evaluate_contact() filled, at the same z.
+template <int Dim>
+void differentiate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                           ContactState<Dim>& state);
+
+/// Writes the contact's own rows and adds its wrench to the bodies' momentum rows. J may be null; else the
+/// state is differentiated, and `turn` of its bodies is known.
 template <int Dim>
 void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared, const ContactLayout& at,
                   const ContactRowOptions& options, const ContactState<Dim>& state, Eigen::VectorXd& f,

@@ -245,7 +245,7 @@ void ImplicitStepper<Dim>::keep_solution() {
   problem_.advance(z_, end_);
   for (std::size_t i = 0; i < island_.size(); ++i) {
     const ContactLayout& at = problem_.layout().contact(i);
-    solved_contacts_[island_[i]] = problem_.impulse(i, z_);
+    solved_contacts_[island_[i]] = problem_.impulse(i);
     ContactSolution<Dim>& memory = warm_start_.next(island_[i]);
     const Vector<Dim> center = problem_.body_1_position(i, z_);
     memory.normal = solved_contacts_[island_[i]].normal;

@@ -49,6 +49,7 @@ StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene) {
                                  scene.bodies[static_cast<std::size_t>(joint.body_b)].pose));
     joints_.back().mass = lighter_mass(joint.body_a, joint.body_b);
   }
+  turned_.resize(moving_.size());
   place_.assign(scene.bodies.size(), -1);
   joint_column_.assign(joints_.size(), -1);
   selected_.reserve(moving_.size());
@@ -77,6 +78,7 @@ void StepProblem<Dim>::begin(std::span<const BodyState<Dim>> state, double h) {
   row_options_.h = h;
   start_.assign(state.begin(), state.end());
   for (auto& moving : moving_) prepare_body(moving);
+  for (auto& turned : turned_) turned = {};
 }
 
 template <int Dim>
@@ -143,8 +145,22 @@ void StepProblem<Dim>::prepare_contact(std::size_t i) {
     plane.foot = (normal.dot(plane.position) + surface.offset) * normal;
     plane.foot_body = plane.rotation.transpose() * (plane.foot - plane.position);
   }
-  states_[i].side[0].reserve(pair.side_1);
-  states_[i].side[1].reserve(pair.side_2);
+  ContactState<Dim>& contact = states_[i];
+  contact.side[0].reserve(pair.side_1);
+  contact.side[1].reserve(pair.side_2);
+  start_body(pair.body_1, prepared.origin, contact.body[0]);
+  start_body(pair.body_2, prepared.origin, contact.body[1]);
+}
+
+/// What of a body at the end of the step does not depend on z; of a fixed one that is everything.
+template <int Dim>
+void StepProblem<Dim>::start_body(int body, const Vector<Dim>& origin, BodyAtEnd<Dim>& end) const {
+  const auto index = static_cast<std::size_t>(body);
+  const int moving = moving_index_[index];
+  end = {};
+  end.pose = start_[index].pose;
+  end.pose.position -= origin;
+  if (moving >= 0) end.row_scale = moving_[static_cast<std::size_t>(moving)].row_scale;
 }
 
 template <int Dim>
@@ -200,39 +216,81 @@ void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
     z.template segment<Dimension<Dim>::velocity>(layout_.velocity(b)) = free_velocity_of(b);
 }
 
+/// The body number `moving` of moving_ for this omega'.
 template <int Dim>
-void StepProblem<Dim>::start_velocity(Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < selected_.size(); ++b) {
-    z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b))) =
-        start_[static_cast<std::size_t>(moving_[selected_[b]].body)].velocity;
+auto StepProblem<Dim>::turned(std::size_t moving, const Angular<Dim>& omega) const -> Turned& {
+  Turned& turned = turned_[moving];
+  if (turned.omega != omega) {
+    const auto body = static_cast<std::size_t>(moving_[moving].body);
+    turned.omega = omega;
+    turned.rotation = start_[body].pose.rotation.turned(row_options_.h * omega);
+    turned.has_jacobian = false;
   }
+  return turned;
 }
 
-/// State at the end of the step: q' = q (+) h nu' (Eq. 4), positions relative to `origin`.
 template <int Dim>
-BodyAtEnd<Dim> StepProblem<Dim>::body_at_end(int body, const Vector<Dim>& origin,
-                                             const Eigen::VectorXd& z) const {
+Vector<Dim> StepProblem<Dim>::position_at_end(int body, const Vector<Dim>& origin,
+                                              const Eigen::VectorXd& z) const {
   const auto index = static_cast<std::size_t>(body);
+  const Vector<Dim> start = start_[index].pose.position - origin;
+  if (moving_index_[index] < 0) return start;
+  return start + row_options_.h * z.template segment<Dim>(layout_.velocity(place_[index]));
+}
+
+template <int Dim>
+Pose<Dim> StepProblem<Dim>::pose_at_end(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const {
   BodyAtEnd<Dim> end;
-  end.pose = start_[index].pose;
-  end.pose.position -= origin;
-  if (moving_index_[index] < 0) return end;
-  const int place = place_[index];
-  end.column = layout_.velocity(place);
+  start_body(body, origin, end);
+  move_body(body, origin, z, end);
+  return end.pose;
+}
+
+/// A body that start_body() has set, at the end of the step: q' = q (+) h nu' (Eq. 4).
+template <int Dim>
+void StepProblem<Dim>::move_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z,
+                                 BodyAtEnd<Dim>& end) const {
+  const auto index = static_cast<std::size_t>(body);
+  if (moving_index_[index] < 0) return;
+  end.column = layout_.velocity(place_[index]);
   end.nu = z.template segment<Dimension<Dim>::velocity>(end.column);
-  end.turn = turn_jacobian(Angular<Dim>(end.nu.template tail<Dimension<Dim>::angular>()), row_options_.h);
-  end.pose = advanced(end.pose, end.nu, row_options_.h);
-  end.row_scale = moving_[static_cast<std::size_t>(moving_index_[index])].row_scale;
-  return end;
+  end.pose.position = position_at_end(body, origin, z);
+  end.pose.rotation =
+      turned(static_cast<std::size_t>(moving_index_[index]), end.nu.template tail<Dimension<Dim>::angular>())
+          .rotation;
+}
+
+/// d(theta)/d(omega') of a body that move_body() has moved.
+template <int Dim>
+void StepProblem<Dim>::differentiate_body(int body, BodyAtEnd<Dim>& end) const {
+  const int moving = moving_index_[static_cast<std::size_t>(body)];
+  if (moving < 0) return;
+  const Angular<Dim> omega = end.nu.template tail<Dimension<Dim>::angular>();
+  Turned& turned = this->turned(static_cast<std::size_t>(moving), omega);
+  if (!turned.has_jacobian) {
+    turned.jacobian = turn_jacobian(omega, row_options_.h);
+    turned.has_jacobian = true;
+  }
+  end.turn = turned.jacobian;
 }
 
 template <int Dim>
 void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z) const {
   const ContactPair<Dim>& pair = contacts_[i];
   ContactState<Dim>& state = states_[i];
-  state.body[0] = body_at_end(pair.body_1, prepared_[i].origin, z);
-  state.body[1] = body_at_end(pair.body_2, prepared_[i].origin, z);
-  evaluate_contact(pair, prepared_[i], layout_.contact(i), row_options_, z, state);
+  move_body(pair.body_1, prepared_[i].origin, z, state.body[0]);
+  move_body(pair.body_2, prepared_[i].origin, z, state.body[1]);
+  evaluate_contact(pair, prepared_[i], layout_.contact(i), z, state);
+}
+
+/// What derivatives of contact i need beyond evaluate_state().
+template <int Dim>
+void StepProblem<Dim>::differentiate_state(std::size_t i) const {
+  const ContactPair<Dim>& pair = contacts_[i];
+  ContactState<Dim>& state = states_[i];
+  differentiate_body(pair.body_1, state.body[0]);
+  differentiate_body(pair.body_2, state.body[1]);
+  differentiate_contact(pair, prepared_[i], state);
 }
 
 template <int Dim>
@@ -300,7 +358,10 @@ void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<
   ContactState<Dim>& state = states_[i];
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) state.body[k].column = block.column[k];
   block.f.head(block.own).setZero();
-  if (derivatives) block.j.topLeftCorner(block.size, block.size).setZero();
+  if (derivatives) {
+    differentiate_state(i);
+    block.j.topLeftCorner(block.size, block.size).setZero();
+  }
   contact_rows(pair, prepared_[i], block.at, row_options_, state, block.f, derivatives ? &block.j : nullptr);
 }
 
@@ -365,6 +426,7 @@ void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     evaluate_state(i, z);
+    if (jacobian != nullptr) differentiate_state(i);
     contact_rows(contacts_[i], prepared_[i], layout_.contact(i), row_options_, states_[i], f, jacobian);
   }
 }
@@ -374,7 +436,13 @@ template <int Dim>
 std::array<BodyAtEnd<Dim>, 2> StepProblem<Dim>::joint_bodies(const JointRows<Dim>& joint,
                                                              const Eigen::VectorXd& z) const {
   const Vector<Dim>& origin = start_[static_cast<std::size_t>(joint.body[0])].pose.position;
-  return {body_at_end(joint.body[0], origin, z), body_at_end(joint.body[1], origin, z)};
+  std::array<BodyAtEnd<Dim>, 2> bodies;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    start_body(joint.body[k], origin, bodies[k]);
+    move_body(joint.body[k], origin, z, bodies[k]);
+    differentiate_body(joint.body[k], bodies[k]);
+  }
+  return bodies;
 }
 
 template <int Dim>
@@ -397,7 +465,7 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
     const Vector<Dim>& relative = first ? a_1 : a_2;
     if (side.kind == SideKind::plane) {
       const PlaneAtStart<Dim>& plane = prepared_[i].plane[k];
-      const Pose<Dim> pose = body_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z).pose;
+      const Pose<Dim> pose = pose_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z);
       const PlaneChart<Dim> chart = pose.rotation.matrix() * plane.basis;
       z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
     } else {
@@ -410,8 +478,8 @@ template <int Dim>
 void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
   const ContactPair<Dim>& pair = contacts_[i];
   const Vector<Dim>& origin = prepared_[i].origin;
-  const std::array<Pose<Dim>, 2> pose = {body_at_end(pair.body_1, origin, z).pose,
-                                         body_at_end(pair.body_2, origin, z).pose};
+  const std::array<Pose<Dim>, 2> pose = {pose_at_end(pair.body_1, origin, z),
+                                         pose_at_end(pair.body_2, origin, z)};
   const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
   set_normal_estimate(i, closest.normal);
   set_points(i, closest.a_1, closest.a_2, z);
@@ -446,8 +514,7 @@ void StepProblem<Dim>::advance(const Eigen::VectorXd& z, std::span<BodyState<Dim
 }
 
 template <int Dim>
-ContactImpulse<Dim> StepProblem<Dim>::impulse(std::size_t i, const Eigen::VectorXd& z) const {
-  evaluate_state(i, z);
+ContactImpulse<Dim> StepProblem<Dim>::impulse(std::size_t i) const {
   const ContactState<Dim>& state = states_[i];
   const double unit = prepared_[i].mass * row_options_.scale.velocity;
   ContactImpulse<Dim> impulse;

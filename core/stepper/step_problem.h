@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -132,8 +133,6 @@ class StepProblem final : public MixedComplementarityProblem {
   /// What joint i of the scene, one of this island, does at a solution z.
   [[nodiscard]] JointImpulse<Dim> joint_impulse(int i, const Eigen::VectorXd& z) const;
 
-  /// nu' = nu, the velocities at the start of the step.
-  void start_velocity(Eigen::VectorXd& z) const;
   /// Writes the unknowns of contact i for given closest points, world frame; impulses and multipliers are
   /// left alone.
   void set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2, Eigen::VectorXd& z) const;
@@ -148,7 +147,7 @@ class StepProblem final : public MixedComplementarityProblem {
   void find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find = &closest_points<Dim>);
   /// Position of body 1 of contact i at the end of the step, relative to prepared(i).origin.
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
-    return body_at_end(contacts_[i].body_1, prepared_[i].origin, z).pose.position;
+    return position_at_end(contacts_[i].body_1, prepared_[i].origin, z);
   }
   /// The states of this island's bodies at the end of the step for a solution z; others are left alone.
   void advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const;
@@ -156,8 +155,8 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] const Vector<Dim>& point(std::size_t i, std::size_t k) const {
     return states_[i].side[k].point;
   }
-  /// Contact i as read back from z: points, frame and impulses in SI units.
-  [[nodiscard]] ContactImpulse<Dim> impulse(std::size_t i, const Eigen::VectorXd& z) const;
+  /// Contact i where it was evaluated last: points, frame and impulses in SI units.
+  [[nodiscard]] ContactImpulse<Dim> impulse(std::size_t i) const;
 
  private:
   struct Moving {
@@ -169,11 +168,27 @@ class StepProblem final : public MixedComplementarityProblem {
     Twist<Dim> row_scale = Twist<Dim>::Zero();
   };
 
+  /// How a body has turned by the end of the step, kept from one asker to the next: each contact of a body
+  /// asks, mostly with the same omega'.
+  struct Turned {
+    Angular<Dim> omega =
+        Angular<Dim>::Constant(std::numeric_limits<double>::quiet_NaN());  ///< omega' it is for
+    Rotation<Dim> rotation{};
+    Inertia<Dim> jacobian = Inertia<Dim>::Zero();  ///< d(theta)/d(omega')
+    bool has_jacobian = false;
+  };
+
   void prepare_body(Moving& moving) const;
   void prepare_contact(std::size_t i);
   void assign_bounds() const;
-  [[nodiscard]] BodyAtEnd<Dim> body_at_end(int body, const Vector<Dim>& origin,
-                                           const Eigen::VectorXd& z) const;
+  [[nodiscard]] Turned& turned(std::size_t moving, const Angular<Dim>& omega) const;
+  [[nodiscard]] Vector<Dim> position_at_end(int body, const Vector<Dim>& origin,
+                                            const Eigen::VectorXd& z) const;
+  void start_body(int body, const Vector<Dim>& origin, BodyAtEnd<Dim>& end) const;
+  void move_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z, BodyAtEnd<Dim>& end) const;
+  [[nodiscard]] Pose<Dim> pose_at_end(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const;
+  void differentiate_body(int body, BodyAtEnd<Dim>& end) const;
+  void differentiate_state(std::size_t i) const;
   [[nodiscard]] std::array<BodyAtEnd<Dim>, 2> joint_bodies(const JointRows<Dim>& joint,
                                                            const Eigen::VectorXd& z) const;
   /// Mass of the lighter of two bodies that moves: the unit of impulses between them, over V.
@@ -201,6 +216,7 @@ class StepProblem final : public MixedComplementarityProblem {
   mutable Eigen::VectorXd lower_;
   mutable Eigen::VectorXd upper_;
   mutable std::vector<ContactState<Dim>> states_;  ///< workspace of evaluate()
+  mutable std::vector<Turned> turned_;             ///< of moving_
 };
 
 /// L and V of a scene (see Scale). @param sizes  radius of each moving body's bounding ball
