@@ -155,14 +155,16 @@ void DenseLu::solve(double* x) {
   with_fixed_size(n_, [&](auto size) {
     const Index n = size;
     const double* const a = storage_.data();
-    for (Index k = 0; k < n; ++k) {
-      const double* const column = a + k * n;
-      for (Index i = k + 1; i < n; ++i) x[i] -= column[i] * x[k];
-    }
+    const auto subtract = [&](Index from, Index to, Index k) {
+      double* __restrict const target = x;
+      const double* __restrict const column = a + k * n;
+      const double factor = target[k];
+      for (Index i = from; i < to; ++i) target[i] -= column[i] * factor;
+    };
+    for (Index k = 0; k < n; ++k) subtract(k + 1, n, k);
     for (Index k = n - 1; k >= 0; --k) {
-      const double* const column = a + k * n;
       x[k] *= inverse_pivot_[static_cast<std::size_t>(k)];
-      for (Index i = 0; i < k; ++i) x[i] -= column[i] * x[k];
+      subtract(0, k, k);
     }
     return true;
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -20,19 +21,40 @@ struct ContactSolution {
   std::vector<double> multipliers;
 };
 
+/// The last values of something, the latest first, at most `Depth`.
+template <typename Value, unsigned Depth>
+class History {
+ public:
+  [[nodiscard]] int count() const { return static_cast<int>(count_); }
+  void clear() { count_ = 0; }
+  /// @param age  0 for the latest
+  [[nodiscard]] const Value& operator[](unsigned age) const { return values_[(latest_ + age) % Depth]; }
+  /// The value to be the latest: what is overwritten was the oldest.
+  [[nodiscard]] Value& push() {
+    latest_ = (latest_ + Depth - 1) % Depth;
+    count_ = std::min(count_ + 1, Depth);
+    return values_[latest_];
+  }
+
+ private:
+  std::array<Value, Depth> values_{};
+  unsigned latest_ = 0;
+  unsigned count_ = 0;
+};
+
 /// The last solutions of a stepper, extrapolated to where the next step's search starts. As long as contacts
-/// stay as they are the motion is smooth in time, and a parabola through three steps is within O(h^3) of the
-/// next one: one Newton step, where the last solution itself would need three.
+/// stay as they are the motion is smooth in time, and a cubic through four steps is within O(h^4) of the next
+/// one: one Newton step, where the last solution itself would need three.
 template <int Dim>
 class WarmStart {
  public:
-  static constexpr int kDepth = 3;
+  static constexpr int kDepth = 4;
 
   explicit WarmStart(const Scene<Dim>& scene);
 
   /// Finds what is known of these contacts, which come in ascending order of (lower, higher body).
   void match(std::span<const ContactPair<Dim>> contacts);
-  [[nodiscard]] bool knows(std::size_t contact) const { return known_[contact] != nullptr; }
+  [[nodiscard]] bool knows(std::size_t contact) const { return known_[contact] != kNew; }
   /// How many last steps, at most kDepth, all of these bodies and contacts have gone through without a
   /// contact that closed or opened; 1 if nothing changes.
   [[nodiscard]] int depth(std::span<const int> bodies, std::span<const std::size_t> contacts) const;
@@ -44,7 +66,7 @@ class WarmStart {
 
   /// The last accepted solution of contact number i of those that were matched for it.
   [[nodiscard]] const ContactSolution<Dim>& last(std::size_t contact) const {
-    return traces_[contact].last[0];
+    return traces_[order_[contact]].solutions[0];
   }
 
   /// Where a step's solution of contact number i is to be written, before accept().
@@ -53,22 +75,22 @@ class WarmStart {
   void accept(std::span<const ContactPair<Dim>> contacts, std::span<const BodyState<Dim>> state);
 
  private:
-  /// Solutions of one contact, the latest first.
-  struct Trace {
+  static constexpr std::size_t kNew = static_cast<std::size_t>(-1);
+
+  struct ContactTrace {
     std::array<int, 2> bodies{};
-    int count = 0;
-    std::array<ContactSolution<Dim>, kDepth> last{};
+    History<ContactSolution<Dim>, kDepth> solutions;
   };
   struct VelocityTrace {
-    int count = 0;
     bool steady = false;  ///< the last two are the same but for rounding
-    std::array<Twist<Dim>, kDepth> last{};
+    History<Twist<Dim>, kDepth> velocities;
   };
 
   std::vector<VelocityTrace> velocities_;  ///< one a body
-  std::vector<Trace> traces_, new_traces_;
-  std::size_t trace_count_ = 0;
-  std::vector<Trace*> known_;  ///< of the contacts that were matched; null for a new one
+  std::vector<ContactTrace> traces_;       ///< in no order
+  std::vector<std::size_t> order_;         ///< of the last step's contacts in traces_
+  std::vector<bool> taken_;                ///< of traces_, by this step's contacts
+  std::vector<std::size_t> known_;         ///< of the contacts that were matched; kNew for a new one
   std::vector<ContactSolution<Dim>> next_;
   ContactSolution<Dim> extrapolated_;
 };
