@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// p_vp = -h omega x (I omega), the gyroscopic impulse; none in the plane.
-Angular<2> gyroscopic(const Angular<2>&, const Inertia<2>&) { return Angular<2>(0.0); }
-Angular<3> gyroscopic(const Angular<3>& omega, const Inertia<3>& inertia) {
-  return -omega.cross(Vector<3>(inertia * omega));
-}
-
 }  // namespace
 
 template <int Dim>
@@ -38,21 +32,14 @@ Scale scene_scale(const Scene<Dim>& scene) {
 }
 
 template <int Dim>
-StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene) {
+StepProblem<Dim>::StepProblem(const Scene<Dim>& scene) : scene_(scene), bodies_(scene) {
   row_options_.scale = scene_scale(scene);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    moving_index_.push_back(scene.bodies[i].fixed ? -1 : static_cast<int>(moving_.size()));
-    if (!scene.bodies[i].fixed) moving_.push_back({static_cast<int>(i), scene.bodies[i].mass});
-  }
   for (const Joint<Dim>& joint : scene.joints) {
     joints_.push_back(joint_rows(joint, scene.bodies[static_cast<std::size_t>(joint.body_a)].pose,
                                  scene.bodies[static_cast<std::size_t>(joint.body_b)].pose));
-    joints_.back().mass = lighter_mass(joint.body_a, joint.body_b);
+    joints_.back().mass = bodies_.lighter_mass(joint.body_a, joint.body_b);
   }
-  turned_.resize(moving_.size());
-  place_.assign(scene.bodies.size(), -1);
   joint_column_.assign(joints_.size(), -1);
-  selected_.reserve(moving_.size());
   selected_joints_.reserve(joints_.size());
 }
 
@@ -66,30 +53,21 @@ template <int Dim>
 void StepProblem<Dim>::prepare(std::span<const BodyState<Dim>> state, double h,
                                const std::vector<ContactPair<Dim>>& contacts) {
   begin(state, h);
-  std::vector<int> bodies;
-  for (const Moving& moving : moving_) bodies.push_back(moving.body);
   std::vector<int> joints(joints_.size());
   std::iota(joints.begin(), joints.end(), 0);
-  select(bodies, joints, contacts);
+  select(bodies_.all_moving(), joints, contacts);
 }
 
 template <int Dim>
 void StepProblem<Dim>::begin(std::span<const BodyState<Dim>> state, double h) {
   row_options_.h = h;
-  start_.assign(state.begin(), state.end());
-  for (auto& moving : moving_) prepare_body(moving);
-  for (auto& turned : turned_) turned = {};
+  bodies_.begin(state, h, row_options_.scale);
 }
 
 template <int Dim>
 void StepProblem<Dim>::select(std::span<const int> bodies, std::span<const int> joints,
                               std::span<const ContactPair<Dim>> contacts) {
-  selected_.clear();
-  for (const int body : bodies) {
-    place_[static_cast<std::size_t>(body)] = static_cast<int>(selected_.size());
-    selected_.push_back(static_cast<std::size_t>(moving_index_[static_cast<std::size_t>(body)]));
-  }
-  selected_bodies_.assign(bodies.begin(), bodies.end());
+  bodies_.select(bodies);
   selected_joints_.assign(joints.begin(), joints.end());
   Eigen::Index next = layout_.velocity(moving_bodies());
   for (const int joint : joints) {
@@ -105,38 +83,21 @@ void StepProblem<Dim>::select(std::span<const int> bodies, std::span<const int> 
 }
 
 template <int Dim>
-void StepProblem<Dim>::prepare_body(Moving& moving) const {
-  const auto index = static_cast<std::size_t>(moving.body);
-  const Body<Dim>& body = scene_.bodies[index];
-  const BodyState<Dim>& state = start_[index];
-  const double h = row_options_.h;
-  moving.inertia = world_inertia(body.inertia, state.pose.rotation);
-  const Angular<Dim> omega = state.velocity.template tail<Dimension<Dim>::angular>();
-  moving.momentum.template head<Dim>() =
-      moving.mass * state.velocity.template head<Dim>() + h * (moving.mass * scene_.gravity + body.force);
-  moving.momentum.template tail<Dimension<Dim>::angular>() =
-      moving.inertia * omega + h * gyroscopic(omega, moving.inertia);
-  const double gyration = std::sqrt(body.inertia.trace() / (Dimension<Dim>::angular * moving.mass));
-  moving.row_scale.setConstant(1 / (moving.mass * row_options_.scale.velocity));
-  moving.row_scale.template tail<Dimension<Dim>::angular>() /= gyration;
-}
-
-template <int Dim>
 void StepProblem<Dim>::prepare_contact(std::size_t i) {
   const ContactPair<Dim>& pair = contacts_[i];
   PreparedContact<Dim>& prepared = prepared_[i];
-  prepared.origin = start_[static_cast<std::size_t>(pair.body_1)].pose.position;
+  prepared.origin = bodies_.start(pair.body_1).position;
   prepared.reference = pair.law.tangent.normalized();
   prepared.semi_axes = pair.law.semi_axes();
   prepared.active = (prepared.semi_axes.array() != 0).template cast<double>();
-  prepared.mass = lighter_mass(pair.body_1, pair.body_2);
+  prepared.mass = bodies_.lighter_mass(pair.body_1, pair.body_2);
   const double largest = prepared.semi_axes.template head<Dim - 1>().maxCoeff();
   prepared.rho = 1 / (3 * largest * largest);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     const Side<Dim>& side = k == 0 ? pair.side_1 : pair.side_2;
     if (side.kind != SideKind::plane) continue;
     const HalfSpace<Dim>& surface = *side.surface->plane();
-    const Pose<Dim>& pose = start_[static_cast<std::size_t>(k == 0 ? pair.body_1 : pair.body_2)].pose;
+    const Pose<Dim>& pose = bodies_.start(k == 0 ? pair.body_1 : pair.body_2);
     PlaneAtStart<Dim>& plane = prepared.plane[k];
     plane.rotation = pose.rotation.matrix();
     plane.position = pose.position - prepared.origin;
@@ -148,29 +109,8 @@ void StepProblem<Dim>::prepare_contact(std::size_t i) {
   ContactState<Dim>& contact = states_[i];
   contact.side[0].reserve(pair.side_1);
   contact.side[1].reserve(pair.side_2);
-  start_body(pair.body_1, prepared.origin, contact.body[0]);
-  start_body(pair.body_2, prepared.origin, contact.body[1]);
-}
-
-/// What of a body at the end of the step does not depend on z; of a fixed one that is everything.
-template <int Dim>
-void StepProblem<Dim>::start_body(int body, const Vector<Dim>& origin, BodyAtEnd<Dim>& end) const {
-  const auto index = static_cast<std::size_t>(body);
-  const int moving = moving_index_[index];
-  end = {};
-  end.pose = start_[index].pose;
-  end.pose.position -= origin;
-  if (moving >= 0) end.row_scale = moving_[static_cast<std::size_t>(moving)].row_scale;
-}
-
-template <int Dim>
-double StepProblem<Dim>::lighter_mass(int body_1, int body_2) const {
-  double mass = kInfinity;
-  for (const int index : {body_1, body_2}) {
-    const Body<Dim>& body = scene_.bodies[static_cast<std::size_t>(index)];
-    if (!body.fixed) mass = std::min(mass, body.mass);
-  }
-  return mass;
+  bodies_.start_body(pair.body_1, prepared.origin, contact.body[0]);
+  bodies_.start_body(pair.body_2, prepared.origin, contact.body[1]);
 }
 
 template <int Dim>
@@ -201,85 +141,17 @@ void StepProblem<Dim>::assign_bounds() const {
 }
 
 template <int Dim>
-Twist<Dim> StepProblem<Dim>::free_velocity_of(int place) const {
-  constexpr int kAngular = Dimension<Dim>::angular;
-  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
-  Twist<Dim> nu;
-  nu.template head<Dim>() = moving.momentum.template head<Dim>() / moving.mass;
-  nu.template tail<kAngular>() = moving.inertia.inverse() * moving.momentum.template tail<kAngular>();
-  return nu;
-}
-
-template <int Dim>
 void StepProblem<Dim>::free_velocity(Eigen::VectorXd& z) const {
   for (int b = 0; b < moving_bodies(); ++b)
     z.template segment<Dimension<Dim>::velocity>(layout_.velocity(b)) = free_velocity_of(b);
-}
-
-/// The body number `moving` of moving_ for this omega'.
-template <int Dim>
-auto StepProblem<Dim>::turned(std::size_t moving, const Angular<Dim>& omega) const -> Turned& {
-  Turned& turned = turned_[moving];
-  if (turned.omega != omega) {
-    const auto body = static_cast<std::size_t>(moving_[moving].body);
-    turned.omega = omega;
-    turned.rotation = start_[body].pose.rotation.turned(row_options_.h * omega);
-    turned.has_jacobian = false;
-  }
-  return turned;
-}
-
-template <int Dim>
-Vector<Dim> StepProblem<Dim>::position_at_end(int body, const Vector<Dim>& origin,
-                                              const Eigen::VectorXd& z) const {
-  const auto index = static_cast<std::size_t>(body);
-  const Vector<Dim> start = start_[index].pose.position - origin;
-  if (moving_index_[index] < 0) return start;
-  return start + row_options_.h * z.template segment<Dim>(layout_.velocity(place_[index]));
-}
-
-template <int Dim>
-Pose<Dim> StepProblem<Dim>::pose_at_end(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const {
-  BodyAtEnd<Dim> end;
-  start_body(body, origin, end);
-  move_body(body, origin, z, end);
-  return end.pose;
-}
-
-/// A body that start_body() has set, at the end of the step: q' = q (+) h nu' (Eq. 4).
-template <int Dim>
-void StepProblem<Dim>::move_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z,
-                                 BodyAtEnd<Dim>& end) const {
-  const auto index = static_cast<std::size_t>(body);
-  if (moving_index_[index] < 0) return;
-  end.column = layout_.velocity(place_[index]);
-  end.nu = z.template segment<Dimension<Dim>::velocity>(end.column);
-  end.pose.position = position_at_end(body, origin, z);
-  end.pose.rotation =
-      turned(static_cast<std::size_t>(moving_index_[index]), end.nu.template tail<Dimension<Dim>::angular>())
-          .rotation;
-}
-
-/// d(theta)/d(omega') of a body that move_body() has moved.
-template <int Dim>
-void StepProblem<Dim>::differentiate_body(int body, BodyAtEnd<Dim>& end) const {
-  const int moving = moving_index_[static_cast<std::size_t>(body)];
-  if (moving < 0) return;
-  const Angular<Dim> omega = end.nu.template tail<Dimension<Dim>::angular>();
-  Turned& turned = this->turned(static_cast<std::size_t>(moving), omega);
-  if (!turned.has_jacobian) {
-    turned.jacobian = turn_jacobian(omega, row_options_.h);
-    turned.has_jacobian = true;
-  }
-  end.turn = turned.jacobian;
 }
 
 template <int Dim>
 void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z) const {
   const ContactPair<Dim>& pair = contacts_[i];
   ContactState<Dim>& state = states_[i];
-  move_body(pair.body_1, prepared_[i].origin, z, state.body[0]);
-  move_body(pair.body_2, prepared_[i].origin, z, state.body[1]);
+  bodies_.move_body(pair.body_1, prepared_[i].origin, z, state.body[0]);
+  bodies_.move_body(pair.body_2, prepared_[i].origin, z, state.body[1]);
   evaluate_contact(pair, prepared_[i], layout_.contact(i), z, state);
 }
 
@@ -288,30 +160,9 @@ template <int Dim>
 void StepProblem<Dim>::differentiate_state(std::size_t i) const {
   const ContactPair<Dim>& pair = contacts_[i];
   ContactState<Dim>& state = states_[i];
-  differentiate_body(pair.body_1, state.body[0]);
-  differentiate_body(pair.body_2, state.body[1]);
+  bodies_.differentiate_body(pair.body_1, state.body[0]);
+  bodies_.differentiate_body(pair.body_2, state.body[1]);
   differentiate_contact(pair, prepared_[i], state);
-}
-
-template <int Dim>
-Twist<Dim> StepProblem<Dim>::momentum_row(int place, const Eigen::VectorXd& z) const {
-  constexpr int kAngular = Dimension<Dim>::angular;
-  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
-  const Eigen::Index at = layout_.velocity(place);
-  Twist<Dim> momentum = -moving.momentum;
-  momentum.template head<Dim>() += moving.mass * z.template segment<Dim>(at);
-  momentum.template tail<kAngular>() += moving.inertia * z.template segment<kAngular>(at + Dim);
-  return moving.row_scale.cwiseProduct(momentum);
-}
-
-template <int Dim>
-MotionMatrix<Dim> StepProblem<Dim>::momentum_matrix(int place) const {
-  constexpr int kAngular = Dimension<Dim>::angular;
-  const Moving& moving = moving_[selected_[static_cast<std::size_t>(place)]];
-  MotionMatrix<Dim> matrix = MotionMatrix<Dim>::Zero();
-  matrix.diagonal().template head<Dim>().setConstant(moving.row_scale[0] * moving.mass);
-  matrix.template bottomRightCorner<kAngular, kAngular>() = moving.row_scale[Dim] * moving.inertia;
-  return matrix;
 }
 
 /// M nu' - M nu - p_app - p_vp, the first row of Eq. 10 without the contacts' wrenches.
@@ -331,9 +182,8 @@ template <int Dim>
 void StepProblem<Dim>::place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const {
   Eigen::Index next = 0;
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const auto index = static_cast<std::size_t>(body[k]);
-    const bool moves = moving_index_[index] >= 0;
-    block.place[k] = moves ? place_[index] : -1;
+    block.place[k] = bodies_.place(body[k]);
+    const bool moves = block.place[k] >= 0;
     block.column[k] = moves ? next : -1;
     if (moves) next += Dimension<Dim>::velocity;
   }
@@ -367,11 +217,7 @@ void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<
 
 template <int Dim>
 std::array<int, 2> StepProblem<Dim>::places(std::size_t i) const {
-  const auto place = [this](int body) {
-    const auto index = static_cast<std::size_t>(body);
-    return moving_index_[index] < 0 ? -1 : place_[index];
-  };
-  return {place(contacts_[i].body_1), place(contacts_[i].body_2)};
+  return {bodies_.place(contacts_[i].body_1), bodies_.place(contacts_[i].body_2)};
 }
 
 template <int Dim>
@@ -435,12 +281,12 @@ void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
 template <int Dim>
 std::array<BodyAtEnd<Dim>, 2> StepProblem<Dim>::joint_bodies(const JointRows<Dim>& joint,
                                                              const Eigen::VectorXd& z) const {
-  const Vector<Dim>& origin = start_[static_cast<std::size_t>(joint.body[0])].pose.position;
+  const Vector<Dim>& origin = bodies_.start(joint.body[0]).position;
   std::array<BodyAtEnd<Dim>, 2> bodies;
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    start_body(joint.body[k], origin, bodies[k]);
-    move_body(joint.body[k], origin, z, bodies[k]);
-    differentiate_body(joint.body[k], bodies[k]);
+    bodies_.start_body(joint.body[k], origin, bodies[k]);
+    bodies_.move_body(joint.body[k], origin, z, bodies[k]);
+    bodies_.differentiate_body(joint.body[k], bodies[k]);
   }
   return bodies;
 }
@@ -465,7 +311,7 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
     const Vector<Dim>& relative = first ? a_1 : a_2;
     if (side.kind == SideKind::plane) {
       const PlaneAtStart<Dim>& plane = prepared_[i].plane[k];
-      const Pose<Dim> pose = pose_at_end(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z);
+      const Pose<Dim> pose = bodies_.pose(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z);
       const PlaneChart<Dim> chart = pose.rotation.matrix() * plane.basis;
       z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
     } else {
@@ -478,8 +324,8 @@ template <int Dim>
 void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
   const ContactPair<Dim>& pair = contacts_[i];
   const Vector<Dim>& origin = prepared_[i].origin;
-  const std::array<Pose<Dim>, 2> pose = {pose_at_end(pair.body_1, origin, z),
-                                         pose_at_end(pair.body_2, origin, z)};
+  const std::array<Pose<Dim>, 2> pose = {bodies_.pose(pair.body_1, origin, z),
+                                         bodies_.pose(pair.body_2, origin, z)};
   const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
   set_normal_estimate(i, closest.normal);
   set_points(i, closest.a_1, closest.a_2, z);
@@ -500,16 +346,6 @@ void StepProblem<Dim>::set_multipliers(std::size_t i, const std::array<Pose<Dim>
     closest_multipliers(*side.surface, pose[k].to_body(point),
                         Vector<Dim>(pose[k].rotation.matrix().transpose() * outward),
                         std::span(first, static_cast<std::size_t>(side.multipliers())));
-  }
-}
-
-template <int Dim>
-void StepProblem<Dim>::advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const {
-  for (std::size_t b = 0; b < selected_.size(); ++b) {
-    const auto index = static_cast<std::size_t>(moving_[selected_[b]].body);
-    state[index].velocity =
-        z.template segment<Dimension<Dim>::velocity>(layout_.velocity(static_cast<int>(b)));
-    state[index].pose = advanced(start_[index].pose, state[index].velocity, row_options_.h);
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "core/method.h"
 #include "core/stepper/contact_rows.h"
 #include "core/stepper/joint_rows.h"
+#include "core/stepper/step_bodies.h"
 
 namespace touchstone {
 
@@ -82,10 +82,14 @@ class StepProblem final : public MixedComplementarityProblem {
 
   // The same rows piece by piece, for whoever eliminates unknowns. z may be longer than size().
 
-  /// M nu' - M nu - p_app - p_vp of a moving body, without contacts and joints, scaled.
-  [[nodiscard]] Twist<Dim> momentum_row(int place, const Eigen::VectorXd& z) const;
-  /// Its derivative by nu': constant during the step.
-  [[nodiscard]] MotionMatrix<Dim> momentum_matrix(int place) const;
+  // Of the moving bodies, by number in this island (StepBodies).
+  [[nodiscard]] Twist<Dim> momentum_row(int place, const Eigen::VectorXd& z) const {
+    return bodies_.momentum_row(place, z);
+  }
+  [[nodiscard]] MotionMatrix<Dim> momentum_matrix(int place) const { return bodies_.momentum_matrix(place); }
+  [[nodiscard]] const Twist<Dim>& momentum_scale(int place) const { return bodies_.momentum_scale(place); }
+  [[nodiscard]] Twist<Dim> free_velocity_of(int place) const { return bodies_.free_velocity(place); }
+
   /// Evaluates contact i at z, for contact_block().
   void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
   /// Rows of contact i where it was evaluated last, and their derivatives if asked for.
@@ -104,11 +108,6 @@ class StepProblem final : public MixedComplementarityProblem {
   /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
   /// s].
   [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
-  /// What a moving body's momentum rows are multiplied with.
-  [[nodiscard]] const Twist<Dim>& momentum_scale(int place) const {
-    return moving_[selected_[static_cast<std::size_t>(place)]].row_scale;
-  }
-  [[nodiscard]] Twist<Dim> free_velocity_of(int place) const;
   /// Rows of joint i of the scene, one of this island, at z.
   void joint_block(int i, const Eigen::VectorXd& z, bool derivatives, StepBlock<Dim>& block) const;
 
@@ -116,10 +115,10 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] const std::vector<ContactPair<Dim>>& contacts() const { return contacts_; }
   [[nodiscard]] const PreparedContact<Dim>& prepared(std::size_t i) const { return prepared_[i]; }
   /// Of this island.
-  [[nodiscard]] int moving_bodies() const { return static_cast<int>(selected_.size()); }
+  [[nodiscard]] int moving_bodies() const { return bodies_.count(); }
   /// Index in the scene of moving body number `place` of this island.
-  [[nodiscard]] int body(int place) const { return moving_[selected_[static_cast<std::size_t>(place)]].body; }
-  [[nodiscard]] std::span<const int> bodies() const { return selected_bodies_; }
+  [[nodiscard]] int body(int place) const { return bodies_.selected()[static_cast<std::size_t>(place)]; }
+  [[nodiscard]] std::span<const int> bodies() const { return bodies_.selected(); }
   [[nodiscard]] std::span<const int> joints() const { return selected_joints_; }
 
   /// nu' of a free step: no contact impulse. Entries of z below layout().velocity(moving_bodies()).
@@ -147,10 +146,10 @@ class StepProblem final : public MixedComplementarityProblem {
   void find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find = &closest_points<Dim>);
   /// Position of body 1 of contact i at the end of the step, relative to prepared(i).origin.
   [[nodiscard]] Vector<Dim> body_1_position(std::size_t i, const Eigen::VectorXd& z) const {
-    return position_at_end(contacts_[i].body_1, prepared_[i].origin, z);
+    return bodies_.position(contacts_[i].body_1, prepared_[i].origin, z);
   }
   /// The states of this island's bodies at the end of the step for a solution z; others are left alone.
-  void advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const;
+  void advance(const Eigen::VectorXd& z, std::span<BodyState<Dim>> state) const { bodies_.advance(z, state); }
   /// Closest point of side k (0: body 1, 1: body 2) at the last z evaluated, relative to prepared(i).origin.
   [[nodiscard]] const Vector<Dim>& point(std::size_t i, std::size_t k) const {
     return states_[i].side[k].point;
@@ -159,40 +158,11 @@ class StepProblem final : public MixedComplementarityProblem {
   [[nodiscard]] ContactImpulse<Dim> impulse(std::size_t i) const;
 
  private:
-  struct Moving {
-    int body = 0;
-    double mass = 1.0;
-    Inertia<Dim> inertia =
-        Inertia<Dim>::Identity();              ///< world frame, at the start of the step (as in the paper)
-    Twist<Dim> momentum = Twist<Dim>::Zero();  ///< M nu + p_app + p_vp
-    Twist<Dim> row_scale = Twist<Dim>::Zero();
-  };
-
-  /// How a body has turned by the end of the step, kept from one asker to the next: each contact of a body
-  /// asks, mostly with the same omega'.
-  struct Turned {
-    Angular<Dim> omega =
-        Angular<Dim>::Constant(std::numeric_limits<double>::quiet_NaN());  ///< omega' it is for
-    Rotation<Dim> rotation{};
-    Inertia<Dim> jacobian = Inertia<Dim>::Zero();  ///< d(theta)/d(omega')
-    bool has_jacobian = false;
-  };
-
-  void prepare_body(Moving& moving) const;
   void prepare_contact(std::size_t i);
   void assign_bounds() const;
-  [[nodiscard]] Turned& turned(std::size_t moving, const Angular<Dim>& omega) const;
-  [[nodiscard]] Vector<Dim> position_at_end(int body, const Vector<Dim>& origin,
-                                            const Eigen::VectorXd& z) const;
-  void start_body(int body, const Vector<Dim>& origin, BodyAtEnd<Dim>& end) const;
-  void move_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z, BodyAtEnd<Dim>& end) const;
-  [[nodiscard]] Pose<Dim> pose_at_end(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const;
-  void differentiate_body(int body, BodyAtEnd<Dim>& end) const;
   void differentiate_state(std::size_t i) const;
   [[nodiscard]] std::array<BodyAtEnd<Dim>, 2> joint_bodies(const JointRows<Dim>& joint,
                                                            const Eigen::VectorXd& z) const;
-  /// Mass of the lighter of two bodies that moves: the unit of impulses between them, over V.
-  [[nodiscard]] double lighter_mass(int body_1, int body_2) const;
   void set_multipliers(std::size_t i, const std::array<Pose<Dim>, 2>& pose, const ClosestPoints<Dim>& closest,
                        Eigen::VectorXd& z) const;
   void place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const;
@@ -200,13 +170,8 @@ class StepProblem final : public MixedComplementarityProblem {
 
   const Scene<Dim>& scene_;
   ContactRowOptions row_options_{};
-  std::vector<BodyState<Dim>> start_;
-  std::vector<Moving> moving_;          ///< all bodies that move
-  std::vector<int> moving_index_;       ///< of a body in moving_; -1 for a fixed one
+  StepBodies<Dim> bodies_;
   std::vector<JointRows<Dim>> joints_;  ///< all joints
-  std::vector<std::size_t> selected_;   ///< this island's bodies, indices in moving_
-  std::vector<int> place_;              ///< of a body in selected_; -1 for a fixed one; else not meant
-  std::vector<int> selected_bodies_;    ///< the same, indices in the scene
   std::vector<int> selected_joints_;
   std::vector<Eigen::Index> joint_column_;
   std::vector<ContactPair<Dim>> contacts_;
@@ -216,7 +181,6 @@ class StepProblem final : public MixedComplementarityProblem {
   mutable Eigen::VectorXd lower_;
   mutable Eigen::VectorXd upper_;
   mutable std::vector<ContactState<Dim>> states_;  ///< workspace of evaluate()
-  mutable std::vector<Turned> turned_;             ///< of moving_
 };
 
 /// L and V of a scene (see Scale). @param sizes  radius of each moving body's bounding ball
