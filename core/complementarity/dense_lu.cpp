@@ -38,6 +38,21 @@ bool with_fixed_size(Index n, const Loops& loops) {
       return loops(n);
   }
 }
+
+/// Likewise for the velocities of one or two bodies.
+template <typename Loops>
+bool with_fixed_columns(Index columns, const Loops& loops) {
+  switch (columns) {
+    case 3:
+      return loops(std::integral_constant<Index, 3>{});
+    case 6:
+      return loops(std::integral_constant<Index, 6>{});
+    case 12:
+      return loops(std::integral_constant<Index, 12>{});
+    default:
+      return loops(columns);
+  }
+}
 }  // namespace
 
 Eigen::Map<Eigen::MatrixXd> DenseLu::matrix(Index n) {
@@ -177,23 +192,25 @@ void DenseLu::solve_rows(double* x, Index columns) {
     const Index other = exchanges_[static_cast<std::size_t>(k)];
     if (other != k) std::swap_ranges(row(k), row(k + 1), row(other));
   }
-  with_fixed_size(n_, [&](auto size) {
-    const Index n = size;
-    const double* const a = storage_.data();
-    const auto subtract = [&](Index i, double factor, Index k) {
-      double* __restrict const target = row(i);
-      const double* __restrict const source = row(k);
-      for (Index c = 0; c < columns; ++c) target[c] -= factor * source[c];
-    };
-    for (Index k = 0; k < n; ++k) {
-      for (Index i = k + 1; i < n; ++i) subtract(i, a[i + k * n], k);
-    }
-    for (Index k = n - 1; k >= 0; --k) {
-      const double inverse = inverse_pivot_[static_cast<std::size_t>(k)];
-      for (Index c = 0; c < columns; ++c) row(k)[c] *= inverse;
-      for (Index i = 0; i < k; ++i) subtract(i, a[i + k * n], k);
-    }
-    return true;
+  with_fixed_columns(columns, [&](auto width) {
+    return with_fixed_size(n_, [&](auto size) {
+      const Index n = size;
+      const double* const a = storage_.data();
+      const auto subtract = [&](Index i, double factor, Index k) {
+        double* __restrict const target = row(i);
+        const double* __restrict const source = row(k);
+        for (Index c = 0; c < width; ++c) target[c] -= factor * source[c];
+      };
+      for (Index k = 0; k < n; ++k) {
+        for (Index i = k + 1; i < n; ++i) subtract(i, a[i + k * n], k);
+      }
+      for (Index k = n - 1; k >= 0; --k) {
+        const double inverse = inverse_pivot_[static_cast<std::size_t>(k)];
+        for (Index c = 0; c < width; ++c) row(k)[c] *= inverse;
+        for (Index i = 0; i < k; ++i) subtract(i, a[i + k * n], k);
+      }
+      return true;
+    });
   });
 }
 
