@@ -21,9 +21,9 @@ Scene<Dim> example_of(const std::string& name) {
 
 TEST(Examples, AreThese) {
   EXPECT_EQ(test::listing(EXAMPLE_SCENES),
-            "box_on_incline.toml disc_rolling.toml ellipsoid_on_ellipsoid.toml ellipsoid_rolling.toml "
-            "euler_disc.toml pendulum.toml rattleback.toml slider_crank.toml sphere_on_spheres.toml "
-            "sphere_spin.toml ten_bodies.toml tippe_top.toml");
+            "box_on_incline.toml closed_forms.toml disc_rolling.toml ellipsoid_on_ellipsoid.toml "
+            "ellipsoid_rolling.toml euler_disc.toml pendulum.toml rattleback.toml slider_crank.toml "
+            "sphere_on_spheres.toml sphere_spin.toml ten_bodies.toml tippe_top.toml");
 }
 
 TEST(Examples, AreSoundAndExplained) {
@@ -66,6 +66,7 @@ TEST(Examples, ThatRollStartInTouchAndWithoutSlip) {
 TEST(Examples, ThatRestOrSlideStartInTouch) {
   EXPECT_NEAR(contact(example_of<3>("sphere_spin"), "ball", "ground").first, 0, 1e-12);
   EXPECT_NEAR(contact(example_of<3>("box_on_incline"), "box", "slope").first, 0, 1e-12);
+  EXPECT_NEAR(contact(example_of<3>("closed_forms"), "body", "ground").first, 0, 1e-12);
   EXPECT_NEAR(contact(example_of<3>("tippe_top"), "top", "table").first, 0, 1e-12);
   EXPECT_NEAR(contact(example_of<2>("slider_crank"), "disc", "bench").first, 0, 1e-12);
 }
