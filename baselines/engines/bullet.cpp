@@ -47,11 +47,11 @@ std::unique_ptr<Engine<3>> load(const Scene<3>& scene, OptionReader& read, Motio
   return make_bullet_world(scene, settings, motion);
 }
 
-/// The same in single precision, in a process of its own.
+/// The same in single precision.
 std::unique_ptr<Engine<3>> load_float(const Scene<3>& scene, OptionReader& read, Motion motion) {
   const BulletSettings settings = read_settings(read, scene, Solver::sequential_impulse);
   read.finish();
-  return make_bullet_float_process(scene, settings, motion);
+  return make_bullet_float_world(scene, settings, motion);
 }
 
 std::string version() { return bullet_version(); }
@@ -67,7 +67,7 @@ constexpr SpatialEngine kSi{"bullet_si", kIterative, kDoublePrecision, &load<Sol
 constexpr const char* kDantzigText = "Bullet, double: mixed LCP by Dantzig's method, friction boxes";
 constexpr const char* kNncgText = "Bullet, double: nonsmooth nonlinear conjugate gradients, friction boxes";
 constexpr const char* kPgsText = "Bullet, double: mixed LCP by projected Gauss-Seidel, friction boxes";
-constexpr const char* kFloatText = "Bullet, single precision, in a process of its own: sequential impulses";
+constexpr const char* kFloatText = "Bullet, single precision: sequential impulses, friction boxes";
 constexpr const char* kSiText = "Bullet, double: sequential impulses, friction boxes";
 
 constexpr MethodEntry<2> kPlanar[] = {

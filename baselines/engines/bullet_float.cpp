@@ -1,123 +1,130 @@
 #include "baselines/engines/bullet_float.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <pthread.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <memory>
-#include <system_error>
+#include <filesystem>
+#include <stdexcept>
 
-#include "baselines/engines/bullet_float_messages.h"
+#include "baselines/engines/bullet_float_module.h"
 #include "core/model/errors.h"
 
 namespace touchstone::engines {
 
 namespace {
 
-[[noreturn]] void throw_error(int error, const char* what) {
-  throw std::system_error(error, std::generic_category(), what);
-}
-
-/// The server with a socket to its standard input. It ends when the socket is closed.
-class Server {
+/// The C library of the module's namespace is not told of a fork, as the program's own is: a lock of its that
+/// another thread holds then would stay so in the child. So a fork waits until nobody is in the module.
+class ForkGate {
  public:
-  Server() {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) throw_error(errno, "socketpair");
-    socket_ = ends[0];
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
-    char path[] = TOUCHSTONE_BULLET_FLOAT_SERVER;
-    char* const arguments[] = {path, nullptr};
-    const int error = posix_spawn(&pid_, path, &actions, nullptr, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    close(ends[1]);
-    if (error != 0) {
-      close(socket_);
-      throw_error(error, path);
-    }
-  }
-  ~Server() {
-    close(socket_);
-    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
-  }
-  Server(const Server&) = delete;
-  Server& operator=(const Server&) = delete;
+  ForkGate() { pthread_rwlock_rdlock(&lock_); }
+  ~ForkGate() { pthread_rwlock_unlock(&lock_); }
+  ForkGate(const ForkGate&) = delete;
+  ForkGate& operator=(const ForkGate&) = delete;
 
-  /// Sends a request and waits for the reply to it.
-  [[nodiscard]] std::string ask(const std::string& request) const {
-    send_message(socket_, request);
-    return receive_message(socket_);
+  static int install() {
+    return pthread_atfork([] { pthread_rwlock_wrlock(&lock_); }, [] { pthread_rwlock_unlock(&lock_); },
+                          // Its holder has another thread id in the child, which cannot unlock it.
+                          [] { lock_ = PTHREAD_RWLOCK_WRITER_NONRECURSIVE_INITIALIZER_NP; });
   }
 
  private:
-  int socket_ = -1;
-  pid_t pid_ = 0;
+  // Forks come before further calls, or steps of several threads could keep one waiting for ever.
+  static inline pthread_rwlock_t lock_ = PTHREAD_RWLOCK_WRITER_NONRECURSIVE_INITIALIZER_NP;
 };
+[[maybe_unused]] const int gate_installed = ForkGate::install();
 
-class BulletFloatProcess final : public Engine<3> {
+/// The module beside this program in the folder of the build, so that a build that was moved uses its own; or
+/// where the build put it.
+std::filesystem::path module_path() {
+  namespace fs = std::filesystem;
+  std::error_code unreadable;
+  fs::path folder = fs::read_symlink("/proc/self/exe", unreadable).parent_path();
+  const fs::path in_build = TOUCHSTONE_BULLET_FLOAT_IN_BUILD;
+  for (; folder.has_relative_path(); folder = folder.parent_path()) {
+    std::error_code missing;
+    if (fs::exists(folder / in_build, missing)) return folder / in_build;
+  }
+  return TOUCHSTONE_BULLET_FLOAT_MODULE;
+}
+
+/// Loaded at the first call, once: glibc has room for 16 namespaces in a process. It stays to the end.
+const BulletFloatModule& module() {
+  static const BulletFloatModule& loaded = []() -> const BulletFloatModule& {
+    const std::string path = module_path();
+    void* handle = dlmopen(LM_ID_NEWLM, path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* entry = handle == nullptr ? nullptr : dlsym(handle, "touchstone_bullet_float_module");
+    if (entry == nullptr)
+      throw std::runtime_error(
+          fmt::format("Bullet's single-precision module cannot be loaded: {}", dlerror()));
+    return *reinterpret_cast<decltype(&touchstone_bullet_float_module)>(entry)();
+  }();
+  return loaded;
+}
+
+void rethrow(const BulletFloatFailure& failure) {
+  if (failure.kind == BulletFloatFailure::Kind::unsupported) throw Unsupported(failure.what);
+  if (failure.kind == BulletFloatFailure::Kind::failed) throw std::runtime_error(failure.what);
+}
+
+class BulletFloatWorld final : public Engine<3> {
  public:
-  BulletFloatProcess(const Scene<3>& scene, const BulletSettings& settings, Motion motion) {
-    BulletFloatLoad load{scene, settings, motion};
-    WireWriter request;
-    transfer(request, load);
-    const std::string bytes = server_.ask(request.bytes());
-    WireReader reply(bytes);
-    BulletFloatLoaded loaded;
-    transfer(reply, loaded);
-    if (!loaded.refusal.empty()) throw Unsupported(loaded.refusal);
-    mass_properties_ = std::move(loaded.mass_properties);
-    result_.state = std::move(loaded.state);
+  BulletFloatWorld(const Scene<3>& scene, const BulletSettings& settings, Motion motion) {
+    const ForkGate gate;
+    BulletFloatFailure failure;
+    world_ = module().load(scene, settings, motion, failure);
+    rethrow(failure);
+  }
+  ~BulletFloatWorld() override {
+    const ForkGate gate;
+    module().unload(world_);
   }
 
   StepReport advance(double h) override {
-    WireWriter request;
-    transfer(request, h);
-    const std::string bytes = server_.ask(request.bytes());
-    WireReader reply(bytes);
-    transfer(reply, result_);
-    return {};
+    const ForkGate gate;
+    BulletFloatFailure failure;
+    const StepReport report = module().advance(world_, h, failure);
+    rethrow(failure);
+    return report;
   }
-
   [[nodiscard]] BodyState<3> body(int index) const override {
-    return result_.state[static_cast<std::size_t>(index)];
+    const ForkGate gate;
+    BodyState<3> state;
+    module().body(world_, index, state);
+    return state;
   }
   [[nodiscard]] MassProperties<3> mass_properties(int index) const override {
-    return mass_properties_[static_cast<std::size_t>(index)];
+    const ForkGate gate;
+    MassProperties<3> properties;
+    module().mass_properties(world_, index, properties);
+    return properties;
   }
-  void read_contacts(std::vector<ContactImpulse<3>>& contacts) const override { contacts = result_.contacts; }
+  void read_contacts(std::vector<ContactImpulse<3>>& contacts) const override {
+    const ForkGate gate;
+    BulletFloatFailure failure;
+    const auto found = module().contacts(world_, failure);
+    rethrow(failure);
+    contacts.insert(contacts.end(), found.begin(), found.end());
+  }
 
  private:
-  Server server_;
-  std::vector<MassProperties<3>> mass_properties_;
-  BulletFloatStepped result_;
+  void* world_ = nullptr;
 };
-
-/// The line that the server prints.
-std::string asked_version() {
-  const std::unique_ptr<FILE, int (*)(FILE*)> server(
-      popen("'" TOUCHSTONE_BULLET_FLOAT_SERVER "' version", "r"), &pclose);
-  char line[64] = {};
-  if (server == nullptr || std::fgets(line, sizeof line, server.get()) == nullptr) return "unknown";
-  const std::string text = line;
-  return text.substr(0, text.find('\n'));
-}
 
 }  // namespace
 
 std::string bullet_float_version() {
-  static const std::string version = asked_version();
-  return version;
+  const ForkGate gate;
+  BulletFloatFailure failure;
+  const char* text = module().version(failure);
+  rethrow(failure);
+  return text;
 }
 
-std::unique_ptr<Engine<3>> make_bullet_float_process(const Scene<3>& scene, const BulletSettings& settings,
-                                                     Motion motion) {
-  return std::make_unique<BulletFloatProcess>(scene, settings, motion);
+std::unique_ptr<Engine<3>> make_bullet_float_world(const Scene<3>& scene, const BulletSettings& settings,
+                                                   Motion motion) {
+  return std::make_unique<BulletFloatWorld>(scene, settings, motion);
 }
 
 }  // namespace touchstone::engines

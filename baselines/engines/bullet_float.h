@@ -4,15 +4,18 @@
 
 #include "baselines/engines/bullet_world.h"
 
+/// Bullet's single-precision build beside the double one in the same process: their libraries have the same
+/// symbol names with other layouts, so this one is loaded into a linker namespace of its own, where nothing
+/// that it defines meets the program's.
 namespace touchstone::engines {
 
-/// The world of Bullet's single-precision build, in a server process that ends with it, and with the thread
-/// that made it. A server that dies throws from the call under way.
-/// @throws Unsupported as make_bullet_world does, std::system_error if the server cannot be started
-std::unique_ptr<Engine<3>> make_bullet_float_process(const Scene<3>& scene, const BulletSettings& settings,
-                                                     Motion motion);
+/// A world of the single-precision build. Worlds may be used by several threads at once, one by one thread at
+/// a time, and a process forked meanwhile may use them on.
+/// @throws Unsupported as make_bullet_world does, std::runtime_error if the module cannot be loaded
+std::unique_ptr<Engine<3>> make_bullet_float_world(const Scene<3>& scene, const BulletSettings& settings,
+                                                   Motion motion);
 
-/// Of the single-precision library, as the server tells; "unknown" if it cannot be asked. Asks once.
+/// As bullet_version. @throws std::runtime_error also if the module cannot be loaded
 std::string bullet_float_version();
 
 }  // namespace touchstone::engines

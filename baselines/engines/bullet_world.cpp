@@ -1,5 +1,6 @@
 #include "baselines/engines/bullet_world.h"
 
+#include <BulletDynamics/ConstraintSolver/btContactConstraint.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
@@ -7,6 +8,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
+#include "baselines/engines/loaded_library.h"
 #include "baselines/engines/principal_axes.h"
 #include "baselines/engines/read_back.h"
 #include "baselines/engines/shapes.h"
@@ -251,6 +253,11 @@ std::unique_ptr<Engine<3>> make_bullet_world(const Scene<3>& scene, const Bullet
   return std::make_unique<BulletWorld>(scene, settings, motion);
 }
 
-std::string bullet_version() { return fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100); }
+std::string bullet_version() {
+  // btGetVersion is an inline function, and so of the headers.
+  const std::string headers = fmt::format("{}.{:02}", btGetVersion() / 100, btGetVersion() % 100);
+  return version_and_file(headers, loaded_file(reinterpret_cast<const void*>(&resolveSingleCollision)),
+                          FileNumber::release);
+}
 
 }  // namespace touchstone::engines

@@ -6,7 +6,7 @@
 #include "baselines/engines/engine.h"
 
 /// Bullet's world behind a wall. Its .cpp is compiled twice: in double precision into the library, and in
-/// single precision into a server of its own, because the two builds of Bullet cannot be in one process.
+/// single precision into a module of its own (bullet_float_module.h).
 namespace touchstone::engines {
 
 enum class BulletSolver { sequential_impulse, nncg, dantzig, pgs };
@@ -25,6 +25,7 @@ struct BulletSettings {
 std::unique_ptr<Engine<3>> make_bullet_world(const Scene<3>& scene, const BulletSettings& settings,
                                              Motion motion);
 
+/// Of the headers, with the file that was loaded. @throws std::runtime_error if they are of two versions
 std::string bullet_version();
 
 }  // namespace touchstone::engines

@@ -12,9 +12,12 @@
 #include <dart/dynamics/dynamics.hpp>
 #include <dart/simulation/World.hpp>
 #include <map>
+#include <mutex>
 
 #include "baselines/engines/dart_materials.h"
 #include "baselines/engines/engines.h"
+#include "baselines/engines/loaded_library.h"
+#include "baselines/engines/ode_start.h"
 #include "baselines/engines/read_back.h"
 #include "baselines/engines/shapes.h"
 #include "baselines/engines/spatial_engine.h"
@@ -121,6 +124,11 @@ class DartWorld final : public Engine<3> {
     world_->setConstraintSolver(create_solver(settings));
     const auto materials = dart_materials(scene_);
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) add_body(i, materials[i]);
+  }
+
+  ~DartWorld() override {
+    const std::lock_guard lock(ode_start());
+    world_.reset();
   }
 
   StepReport advance(double h) override {
@@ -245,10 +253,15 @@ template <Solver solver>
 std::unique_ptr<Engine<3>> load(const Scene<3>& scene, OptionReader& read, Motion motion) {
   const Settings settings = read_settings(read, solver);
   read.finish();
+  const std::lock_guard lock(ode_start());
   return std::make_unique<DartWorld>(scene, settings, motion);
 }
 
-std::string version() { return DART_VERSION; }
+/// DART tells its version in no function.
+std::string version() {
+  return version_and_file(DART_VERSION, loaded_file(reinterpret_cast<const void*>(&dart::math::expMapRot)),
+                          FileNumber::release);
+}
 
 constexpr Capabilities kCapabilities{
     .contact_impulses = true, .torsional_friction = false, .anisotropic_friction = true, .restitution = true};

@@ -9,6 +9,7 @@ target_sources(touchstone_baselines PRIVATE
   ${engines_dir}/engines.cpp
   ${engines_dir}/extruded.cpp
   ${engines_dir}/laws.cpp
+  ${engines_dir}/loaded_library.cpp
   ${engines_dir}/principal_axes.cpp
   ${engines_dir}/read_back.cpp
   ${engines_dir}/shapes.cpp
@@ -19,7 +20,7 @@ target_sources(touchstone_baselines PRIVATE
 function(touchstone_engine name source)
   string(TOUPPER ${name} upper)
   target_sources(touchstone_baselines PRIVATE ${engines_dir}/${source})
-  target_link_libraries(touchstone_baselines PRIVATE ${ARGN})
+  target_link_libraries(touchstone_baselines PRIVATE ${ARGN} ${CMAKE_DL_LIBS})
   set_property(SOURCE ${engines_dir}/engines.cpp TARGET_DIRECTORY touchstone_baselines
     APPEND PROPERTY COMPILE_DEFINITIONS TOUCHSTONE_HAS_${upper}=1)
   message(STATUS "Engine ${name}: yes")
@@ -44,33 +45,41 @@ endmacro()
 find_package(box2d CONFIG REQUIRED)
 touchstone_engine(box2d box2d.cpp box2d::box2d)
 
-# Bullet in double precision in the library, and in single precision in a server of its own: the two builds have the
-# same symbol names with other layouts, so never both in one process.
+# Bullet in double precision in the library, and in single precision in a module: the two builds have the same symbol
+# names with other layouts, so the module is loaded into a linker namespace of its own (bullet_float.cpp). There it has
+# a C library of its own too, which no sanitizer knows: it is not instrumented, and has its own copy of what it needs.
 pkg_check_modules(TOUCHSTONE_BULLET REQUIRED IMPORTED_TARGET bullet-float64)
 pkg_check_modules(TOUCHSTONE_BULLET_FLOAT REQUIRED IMPORTED_TARGET bullet)
 touchstone_engine(bullet bullet.cpp PkgConfig::TOUCHSTONE_BULLET)
 target_sources(touchstone_baselines PRIVATE
   ${engines_dir}/bullet_float.cpp
   ${engines_dir}/bullet_world.cpp
-  ${engines_dir}/wire.cpp
 )
-add_executable(touchstone_bullet_float
-  ${engines_dir}/bullet_float_server.cpp
+add_library(touchstone_bullet_float MODULE
+  ${engines_dir}/bullet_float_module.cpp
   ${engines_dir}/bullet_world.cpp
+  ${engines_dir}/loaded_library.cpp
   ${engines_dir}/principal_axes.cpp
   ${engines_dir}/read_back.cpp
   ${engines_dir}/shapes.cpp
-  ${engines_dir}/wire.cpp
+  ${PROJECT_SOURCE_DIR}/core/model/polytope.cpp
+  ${PROJECT_SOURCE_DIR}/core/model/pose.cpp
+  ${PROJECT_SOURCE_DIR}/core/model/scene.cpp
+  ${PROJECT_SOURCE_DIR}/core/model/shape.cpp
 )
-target_link_libraries(touchstone_bullet_float PRIVATE touchstone_core PkgConfig::TOUCHSTONE_BULLET_FLOAT)
+set_target_properties(touchstone_bullet_float PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden)
+target_include_directories(touchstone_bullet_float PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(touchstone_bullet_float PRIVATE
+  touchstone_plain_flags Eigen3::Eigen fmt::fmt PkgConfig::TOUCHSTONE_BULLET_FLOAT)
+target_link_options(touchstone_bullet_float PRIVATE LINKER:-z,defs)
 add_dependencies(touchstone_baselines touchstone_bullet_float)
+file(RELATIVE_PATH module_in_build ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR})
 set_source_files_properties(${engines_dir}/bullet_float.cpp TARGET_DIRECTORY touchstone_baselines
-  PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_BULLET_FLOAT_SERVER="$<TARGET_FILE:touchstone_bullet_float>")
+  PROPERTIES COMPILE_DEFINITIONS
+  "TOUCHSTONE_BULLET_FLOAT_MODULE=\"$<TARGET_FILE:touchstone_bullet_float>\";TOUCHSTONE_BULLET_FLOAT_IN_BUILD=\"${module_in_build}/$<TARGET_FILE_NAME:touchstone_bullet_float>\"")
 
 pkg_check_modules(TOUCHSTONE_ODE REQUIRED IMPORTED_TARGET ode)
 touchstone_engine(ode ode.cpp PkgConfig::TOUCHSTONE_ODE)
-set_source_files_properties(${engines_dir}/ode.cpp TARGET_DIRECTORY touchstone_baselines
-  PROPERTIES COMPILE_DEFINITIONS TOUCHSTONE_ODE_VERSION="${TOUCHSTONE_ODE_VERSION}")
 
 if(NOT TOUCHSTONE_OPTIONAL_ENGINES)
   message(STATUS "Engines mujoco, chipmunk, dart, siconos, simbody: not wanted")

@@ -5,6 +5,8 @@
 #include <mutex>
 
 #include "baselines/engines/engines.h"
+#include "baselines/engines/loaded_library.h"
+#include "baselines/engines/ode_start.h"
 #include "baselines/engines/read_back.h"
 #include "baselines/engines/shapes.h"
 #include "baselines/engines/spatial_engine.h"
@@ -46,7 +48,10 @@ void note_message(int, const char*, va_list) { complained = true; }
 
 /// ODE wants a global start once and some memory for each thread; both live as long as the process.
 void enter_ode() {
-  static const int started = dInitODE2(0);
+  static const int started = [] {
+    const std::lock_guard lock(ode_start());
+    return dInitODE2(0);
+  }();
   static_cast<void>(started);
   dSetMessageHandler(&note_message);
   thread_local const int allocated = dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
@@ -360,8 +365,11 @@ std::unique_ptr<Engine<3>> load(const Scene<3>& scene, OptionReader& read, Motio
   return std::make_unique<OdeWorld>(scene, settings, motion);
 }
 
-/// ODE tells its version in no function; this is the package that its pkg-config file names.
-std::string version() { return TOUCHSTONE_ODE_VERSION; }
+/// ODE tells its version in no function.
+std::string version() {
+  return version_and_file(dODE_VERSION, loaded_file(reinterpret_cast<const void*>(&dWorldStep)),
+                          FileNumber::interface);
+}
 
 constexpr Capabilities kCapabilities{
     .contact_impulses = true, .torsional_friction = true, .anisotropic_friction = true, .restitution = true};

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "baselines/engines/engines.h"
+#include "baselines/engines/loaded_library.h"
 #include "baselines/engines/read_back.h"
 #include "baselines/engines/shapes.h"
 #include "baselines/engines/simple_contacts.h"
@@ -267,7 +268,11 @@ std::unique_ptr<Engine<3>> load(const Scene<3>& scene, OptionReader& read, Motio
   return std::make_unique<SiconosWorld>(scene, settings, motion);
 }
 
-std::string version() { return TOUCHSTONE_SICONOS_VERSION; }
+/// Siconos tells its version neither in a function nor in a header.
+std::string version() {
+  return version_and_file(TOUCHSTONE_SICONOS_VERSION,
+                          loaded_file(reinterpret_cast<const void*>(&fc3d_driver)), FileNumber::interface);
+}
 
 constexpr Capabilities kCapabilities{
     .contact_impulses = true, .torsional_friction = false, .anisotropic_friction = true, .restitution = true};

@@ -39,9 +39,4 @@ std::vector<Feature<Dim>> repeat_features();
 template <int Dim>
 std::vector<Feature<Dim>> shape_features();
 
-/// Prints, in hexadecimal and so to the last bit, what `entry` makes of a scene with impact, slip and two
-/// bodies. For comparing processes.
-template <int Dim>
-std::string trace(const MethodEntry<Dim>& entry);
-
 }  // namespace touchstone::conformance

@@ -7,6 +7,7 @@
 #include "core/model/errors.h"
 #include "tests/conformance/feature.h"
 #include "tests/conformance/matrix.h"
+#include "tests/conformance/trace.h"
 
 /// Every method of the table against every feature, one test each, named <plane|space>_<method>.<feature>.
 ///   conformance_test --matrix FILE   also writes the capability matrix

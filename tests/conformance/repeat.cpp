@@ -1,41 +1,15 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 
 #include "core/model/errors.h"
 #include "tests/conformance/feature.h"
-#include "tests/conformance/scenes.h"
+#include "tests/conformance/trace.h"
 
 /// The same input gives the same bytes, whatever ran before or runs beside it.
 namespace touchstone::conformance {
 
 namespace {
-
-/// Two balls that land sliding, one of them on the other.
-template <int Dim>
-Scene<Dim> busy_scene() {
-  Scene<Dim> scene = on_ground(ball<Dim>("low", 1.02 * up<Dim>()), 0.3);
-  scene.bodies[0].velocity[0] = 1.5;
-  scene.bodies.push_back(ball<Dim>("high", 2.7 * up<Dim>() + 0.8 * Vector<Dim>::Unit(0), 0.5));
-  return scene;
-}
-
-template <int Dim>
-void append(std::string& text, const Method<Dim>& method) {
-  for (const auto& s : method.state()) {
-    for (int i = 0; i < Dim; ++i) text += fmt::format("{:a} ", s.pose.position[i]);
-    const auto& r = s.pose.rotation.matrix();
-    for (int i = 0; i < Dim * Dim; ++i) text += fmt::format("{:a} ", r(i / Dim, i % Dim));
-    for (int i = 0; i < Dimension<Dim>::velocity; ++i) text += fmt::format("{:a} ", s.velocity[i]);
-  }
-  for (const auto& c : method.contacts()) text += fmt::format("p{:a} ", c.normal_impulse);
-  text += '\n';
-}
-
-constexpr int kTraceSteps = 60;
 
 template <int Dim>
 void same_twice(const Subject<Dim>& subject) {
@@ -63,23 +37,12 @@ void no_leak(const Subject<Dim>& subject) {
   EXPECT_EQ(second_text, alone_in_process);
 }
 
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
-  if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
-  std::string text;
-  char buffer[4096];
-  while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe.get()))
-    text.append(buffer, count);
-  return text;
-}
-
 /// A fresh process prints the trace; so would any engine chatter be seen here, because it would be in the
 /// way.
 template <int Dim>
 void fresh_process(const Subject<Dim>& subject) {
   const std::string here = trace(subject.entry);
-  const std::string there =
-      output_of(fmt::format("'{}' --trace {} {}", testing::internal::GetArgvs()[0], Dim, subject.entry.key));
+  const std::string there = trace_of_fresh_process<Dim>(subject.entry.key);
   EXPECT_EQ(here, there);
 }
 
@@ -107,19 +70,6 @@ void two_orders(const Subject<Dim>& subject) {
 }
 
 }  // namespace
-
-template <int Dim>
-std::string trace(const MethodEntry<Dim>& entry) {
-  std::string text;
-  const auto method = entry.make(busy_scene<Dim>(), {});
-  for (int k = 0; k < kTraceSteps; ++k) {
-    advance(*method, kStep, 1);
-    append(text, *method);
-  }
-  return text;
-}
-template std::string trace(const MethodEntry<2>&);
-template std::string trace(const MethodEntry<3>&);
 
 template <int Dim>
 std::vector<Feature<Dim>> repeat_features() {

@@ -42,7 +42,7 @@ def overview(tables, notes):
         versions = sorted({tables.versions[method] for method in note["methods"] if method in tables.versions})
         rows.append([f"[{note['name']}](#{note['name'].lower()})", ", ".join(versions), note["package"],
                      code(note["methods"])])
-    return "## Which\n\n" + table(["engine", "version, as its library tells", "Debian's package", "methods"], rows)
+    return "## Which\n\n" + table(["engine", "version, as its library tells (or its headers, and the file that was loaded)", "Debian's package", "methods"], rows)
 
 
 def closed_form_section():
@@ -155,8 +155,8 @@ def timing_section(times, methods):
     rows = [[f"`{m}`", times[m]["step_us"], times[m]["ratio"]] for m in sorted(times) if m in methods or "_" in m]
     processors = ", ".join(sorted({row["processor"] for row in times.values()}))
     return ("## Time of a step\n\nOne disc on a plane, h = 0.01 s, one core; median of five runs, on " + processors
-            + ". Ratios are to the LCP with ten edges. The way to another process and back is in that of "
-            "`bullet_si_float`, and what the library prints in that of `simbody_pgs`. Measured when asked "
+            + ". Ratios are to the LCP with ten edges. What the library prints is in the time of "
+            "`simbody_pgs`. Measured when asked "
             "(`--timing`) and kept in `engines/step_time.csv`.\n\n" + table(["method", "time [us]", "ratio"], rows))
 
 
