@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/complementarity/solver_chain.h"
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/box_step.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
@@ -30,7 +30,7 @@ std::vector<double> trace(ComplementaritySolver& solver) {
                     static_cast<double>(report.pivots), static_cast<double>(report.evaluations),
                     report.residual, static_cast<double>(report.stages.count())});
   };
-  for (const testing::TestProblem& test : testing::all_problems()) {
+  for (const problems::TestProblem& test : problems::all_problems()) {
     for (VectorXd z : test.starts) note(solver.solve(*test.problem, z));
   }
   std::mt19937 engine(3);

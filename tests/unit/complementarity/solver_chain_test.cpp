@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/checks.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using testing::FunctionProblem;
-using testing::TestProblem;
+using problems::FunctionProblem;
+using problems::TestProblem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -23,7 +23,7 @@ TEST(SolverChain, SolvesEveryStartOfTheTable) {
     SolverChainOptions options;
     options.first = first;
     SolverChain chain(options);
-    for (const TestProblem& test : testing::all_problems()) {
+    for (const TestProblem& test : problems::all_problems()) {
       for (const VectorXd& start : test.starts) {
         VectorXd z = start;
         const SolveReport report = chain.solve(*test.problem, z);
@@ -35,7 +35,7 @@ TEST(SolverChain, SolvesEveryStartOfTheTable) {
 }
 
 TEST(SolverChain, IsItsFirstSolverWhereThatSucceeds) {
-  const TestProblem test = testing::kojshin();
+  const TestProblem test = problems::kojshin();
   VectorXd chained = test.starts[0];
   VectorXd alone = test.starts[0];
   SolverChain chain;
@@ -51,7 +51,7 @@ TEST(SolverChain, IsItsFirstSolverWhereThatSucceeds) {
 }
 
 TEST(SolverChain, RecordsEveryStageOfAHardStart) {
-  const TestProblem test = testing::billups();
+  const TestProblem test = problems::billups();
   SolverChain chain;
   VectorXd z = VectorXd::Zero(1);
   const SolveReport report = chain.solve(*test.problem, z);
@@ -99,7 +99,7 @@ TEST(SolverChain, FindsADefinedStartNearAnUndefinedOne) {
 }
 
 TEST(SolverChain, RepeatsItselfToTheBit) {
-  const TestProblem test = testing::billups();
+  const TestProblem test = problems::billups();
   SolverChain chain;
   VectorXd first = VectorXd::Zero(1);
   VectorXd second = VectorXd::Zero(1);
@@ -110,7 +110,7 @@ TEST(SolverChain, RepeatsItselfToTheBit) {
 }
 
 TEST(ProximalProblem, AddsItsTermToFAndJacobian) {
-  const TestProblem test = testing::munson1();
+  const TestProblem test = problems::munson1();
   const VectorXd center = Eigen::Vector3d(1, 2, 3);
   const VectorXd z = Eigen::Vector3d(2, 2, 1);
   ProximalProblem proximal;

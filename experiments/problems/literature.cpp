@@ -1,4 +1,4 @@
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace touchstone::testing {
+namespace touchstone::problems {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -49,6 +49,13 @@ TestProblem make(std::string name, FunctionProblem problem, std::vector<VectorXd
                  std::vector<VectorXd> solutions) {
   return {std::move(name), std::make_shared<const FunctionProblem>(std::move(problem)), std::move(starts),
           std::move(solutions)};
+}
+
+TestProblem make_linear(std::string name, FunctionProblem problem, std::vector<VectorXd> starts,
+                        std::vector<VectorXd> solutions) {
+  TestProblem test = make(std::move(name), std::move(problem), std::move(starts), std::move(solutions));
+  test.linear = true;
+  return test;
 }
 
 // Cournot equilibrium of Murphy, Sherali & Soyster 1982: marginal cost less marginal revenue of each firm.
@@ -106,16 +113,16 @@ TestProblem billups() {
 TestProblem munson1() {
   MatrixXd m(3, 3);
   m << 1, 2, 3, 0, 1, -1, 1, 1, 0;
-  return make("munson1", {3, linear(m, vec({-1, 1, 1}))},
-              {vec({0, 0, 0}), vec({1, 1, 1}), vec({0, 10, 0}), vec({0, 0, 10})}, {vec({1, 0, 0})});
+  return make_linear("munson1", {3, linear(m, vec({-1, 1, 1}))},
+                     {vec({0, 0, 0}), vec({1, 1, 1}), vec({0, 10, 0}), vec({0, 0, 10})}, {vec({1, 0, 0})});
 }
 
 TestProblem path4() {
   MatrixXd m(4, 4);
   m << 0, 0, -1, -1, 0, 0, 1, -2, 1, -1, 2, -2, 1, 2, -2, 4;
-  return make("path4", {4, linear(m, vec({2, 2, -2, -6}))},
-              {vec({0, 0, 0, 0}), vec({1, 1, 1, 1}), vec({10, 0, 10, 0}), vec({100, 100, 100, 100})},
-              {vec({2.8, 0, 0.8, 1.2})});
+  return make_linear("path4", {4, linear(m, vec({2, 2, -2, -6}))},
+                     {vec({0, 0, 0, 0}), vec({1, 1, 1, 1}), vec({10, 0, 10, 0}), vec({100, 100, 100, 100})},
+                     {vec({2.8, 0, 0.8, 1.2})});
 }
 
 TestProblem nash10() {
@@ -158,24 +165,24 @@ VectorXd murty_q(Index n) {
 TestProblem murty(Index n) {
   VectorXd solution = VectorXd::Zero(n);
   solution[0] = 1.0;
-  return make("murty" + std::to_string(n), {n, linear(murty_matrix(n), VectorXd::Constant(n, -1))},
-              {VectorXd::Zero(n), VectorXd::Ones(n), VectorXd::Constant(n, 10)}, {solution});
+  return make_linear("murty" + std::to_string(n), {n, linear(murty_matrix(n), VectorXd::Constant(n, -1))},
+                     {VectorXd::Zero(n), VectorXd::Ones(n), VectorXd::Constant(n, 10)}, {solution});
 }
 
 TestProblem bimatrix() {
   MatrixXd m = MatrixXd::Zero(4, 4);
   m.topRightCorner(2, 2) << 10, 30, 20, 15;
   m.bottomLeftCorner(2, 2) = m.topRightCorner(2, 2).transpose().eval();
-  return make("bimatrix", {4, linear(m, VectorXd::Constant(4, -1))},
-              {VectorXd::Zero(4), VectorXd::Ones(4), vec({0.1, 0, 0.1, 0}), vec({0, 1, 0, 1})},
-              {vec({0.1, 0, 0.1, 0}), vec({0, 1.0 / 15, 0, 1.0 / 15}),
-               vec({1.0 / 90, 2.0 / 45, 1.0 / 30, 1.0 / 45})});
+  return make_linear("bimatrix", {4, linear(m, VectorXd::Constant(4, -1))},
+                     {VectorXd::Zero(4), VectorXd::Ones(4), vec({0.1, 0, 0.1, 0}), vec({0, 1, 0, 1})},
+                     {vec({0.1, 0, 0.1, 0}), vec({0, 1.0 / 15, 0, 1.0 / 15}),
+                      vec({1.0 / 90, 2.0 / 45, 1.0 / 30, 1.0 / 45})});
 }
 
 TestProblem ones2() {
-  TestProblem test =
-      make("ones2", {2, linear(MatrixXd::Ones(2, 2), VectorXd::Constant(2, -1))},
-           {vec({0, 0}), vec({1, 1}), vec({0.3, 0.2}), vec({100, 0}), vec({0.3, 0.7})}, {vec({0.5, 0.5})});
+  TestProblem test = make_linear("ones2", {2, linear(MatrixXd::Ones(2, 2), VectorXd::Constant(2, -1))},
+                                 {vec({0, 0}), vec({1, 1}), vec({0.3, 0.2}), vec({100, 0}), vec({0.3, 0.7})},
+                                 {vec({0.5, 0.5})});
   test.solutions_are_all = false;  // all of the segment z1 + z2 = 1
   return test;
 }
@@ -202,8 +209,8 @@ TestProblem obstacle(Index side) {
   // A load that lifts the membrane to the lid near one corner and lets it sag onto the bump elsewhere.
   VectorXd q(n);
   for (Index i = 0; i < n; ++i) q[i] = h * h * (i % side < side / 2 ? -80.0 : 20.0);
-  return make("obstacle" + std::to_string(n), {lower, upper, linear(m, q)},
-              {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(n)}, {});
+  return make_linear("obstacle" + std::to_string(n), {lower, upper, linear(m, q)},
+                     {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(n)}, {});
 }
 
 TestProblem undetermined() {
@@ -225,4 +232,4 @@ std::vector<TestProblem> all_problems() {
           nash5(),   murty(8),  bimatrix(), ones2(),   obstacle(8), undetermined()};
 }
 
-}  // namespace touchstone::testing
+}  // namespace touchstone::problems

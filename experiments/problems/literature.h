@@ -8,7 +8,7 @@
 
 #include "core/complementarity/problem.h"
 
-namespace touchstone::testing {
+namespace touchstone::problems {
 
 /// A problem whose F and Jacobian are a function object; z >= 0 unless bounds are given.
 class FunctionProblem final : public MixedComplementarityProblem {
@@ -40,6 +40,7 @@ struct TestProblem {
   std::vector<Eigen::VectorXd> starts;
   std::vector<Eigen::VectorXd> solutions;
   bool solutions_are_all = true;
+  bool linear = false;               ///< F is M z + q
   double solution_tolerance = 1e-6;  ///< how well the listed solutions are known
 };
 
@@ -68,4 +69,4 @@ struct TestProblem {
 /// All of the above, the obstacle at a small size.
 [[nodiscard]] std::vector<TestProblem> all_problems();
 
-}  // namespace touchstone::testing
+}  // namespace touchstone::problems
