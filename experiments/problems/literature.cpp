@@ -83,6 +83,15 @@ FunctionProblem::FunctionProblem(Index n, Function function)
 FunctionProblem::FunctionProblem(VectorXd lower, VectorXd upper, Function function)
     : lower_(std::move(lower)), upper_(std::move(upper)), function_(std::move(function)) {}
 
+SparseLinearProblem::SparseLinearProblem(VectorXd lower, VectorXd upper, Matrix m, VectorXd q)
+    : lower_(std::move(lower)), upper_(std::move(upper)), q_(std::move(q)), m_(std::move(m)) {}
+
+void SparseLinearProblem::evaluate_sparse(const VectorXd& z, VectorXd& f, Matrix* jacobian) const {
+  f = q_;
+  f += m_ * z;
+  if (jacobian != nullptr) *jacobian = m_;
+}
+
 FunctionProblem::Function linear(MatrixXd m, VectorXd q) {
   return [m = std::move(m), q = std::move(q)](const VectorXd& z, VectorXd& f, MatrixXd* jacobian) {
     f.noalias() = m * z;
@@ -187,30 +196,40 @@ TestProblem ones2() {
   return test;
 }
 
-TestProblem obstacle(Index side) {
+SparseLinearProblem sparse_obstacle(Index side) {
   const Index n = side * side;
   const double h = 1.0 / static_cast<double>(side + 1);
-  MatrixXd m = MatrixXd::Zero(n, n);
+  std::vector<Eigen::Triplet<double>> entries;
   VectorXd lower(n);
   for (Index row = 0; row < side; ++row) {
     for (Index column = 0; column < side; ++column) {
       const Index i = row * side + column;
-      m(i, i) = 4.0;
-      if (row > 0) m(i, i - side) = -1.0;
-      if (row + 1 < side) m(i, i + side) = -1.0;
-      if (column > 0) m(i, i - 1) = -1.0;
-      if (column + 1 < side) m(i, i + 1) = -1.0;
+      entries.emplace_back(i, i, 4.0);
+      if (row > 0) entries.emplace_back(i, i - side, -1.0);
+      if (row + 1 < side) entries.emplace_back(i, i + side, -1.0);
+      if (column > 0) entries.emplace_back(i, i - 1, -1.0);
+      if (column + 1 < side) entries.emplace_back(i, i + 1, -1.0);
       const double x = 3.2 * static_cast<double>(column + 1) * h;
       const double y = 3.2 * static_cast<double>(row + 1) * h;
       lower[i] = std::max(std::sin(x) * std::sin(y), 0.0) * std::max(std::sin(x) * std::sin(y), 0.0);
     }
   }
+  SparseLinearProblem::Matrix m(n, n);
+  m.setFromTriplets(entries.begin(), entries.end());
   const VectorXd upper = (lower.array() + 0.9).min(1.05);
   // A load that lifts the membrane to the lid near one corner and lets it sag onto the bump elsewhere.
   VectorXd q(n);
   for (Index i = 0; i < n; ++i) q[i] = h * h * (i % side < side / 2 ? -80.0 : 20.0);
-  return make_linear("obstacle" + std::to_string(n), {lower, upper, linear(m, q)},
-                     {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(n)}, {});
+  return {lower, upper, m, q};
+}
+
+TestProblem obstacle(Index side) {
+  const SparseLinearProblem sparse = sparse_obstacle(side);
+  const VectorXd& lower = sparse.lower();
+  const VectorXd& upper = sparse.upper();
+  return make_linear("obstacle" + std::to_string(side * side),
+                     {lower, upper, linear(MatrixXd(sparse.m()), sparse.q())},
+                     {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(side * side)}, {});
 }
 
 TestProblem undetermined() {

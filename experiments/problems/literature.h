@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/complementarity/problem.h"
+#include "core/complementarity/sparse_problem.h"
 
 namespace touchstone::problems {
 
@@ -28,6 +29,23 @@ class FunctionProblem final : public MixedComplementarityProblem {
  private:
   Eigen::VectorXd lower_, upper_;
   Function function_;
+};
+
+/// F(z) = M z + q with a sparse M.
+class SparseLinearProblem final : public SparseComplementarityProblem {
+ public:
+  SparseLinearProblem(Eigen::VectorXd lower, Eigen::VectorXd upper, Matrix m, Eigen::VectorXd q);
+
+  [[nodiscard]] Eigen::Index size() const override { return q_.size(); }
+  [[nodiscard]] const Eigen::VectorXd& lower() const override { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& upper() const override { return upper_; }
+  void evaluate_sparse(const Eigen::VectorXd& z, Eigen::VectorXd& f, Matrix* jacobian) const override;
+  [[nodiscard]] const Matrix& m() const { return m_; }
+  [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
+
+ private:
+  Eigen::VectorXd lower_, upper_, q_;
+  Matrix m_;
 };
 
 /// F(z) = M z + q.
@@ -61,6 +79,8 @@ struct TestProblem {
 [[nodiscard]] TestProblem ones2();
 /// A membrane on the unit square, `side`^2 inner nodes of a grid, between a bump below and a lid above.
 [[nodiscard]] TestProblem obstacle(Eigen::Index side);
+/// The same with its five entries a row.
+[[nodiscard]] SparseLinearProblem sparse_obstacle(Eigen::Index side);
 
 /// Two equations that tell the same of x and nothing of y, consistent at x = 1 and, beyond the first order,
 /// only there: the Jacobian is singular everywhere.
