@@ -75,10 +75,9 @@ void FischerBurmeister::evaluate(const Eigen::VectorXd& z, const Eigen::VectorXd
   }
 }
 
-void FischerBurmeister::jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd& f,
-                                 const Eigen::MatrixXd& jacobian, Eigen::Map<Eigen::MatrixXd> h) {
-  const Index n = z.size();
-  for (Index i = 0; i < n; ++i) {
+// The two diagonal matrices of H.
+void FischerBurmeister::find_slopes(const Eigen::VectorXd& z, const Eigen::VectorXd& f) {
+  for (Index i = 0; i < z.size(); ++i) {
     Phi inner{f[i], 0.0, 1.0};
     if ((*upper_)[i] < infinity) inner = upper_phi(z[i], f[i], (*upper_)[i], weight_);
     by_z_[i] = inner.by_a;
@@ -89,6 +88,22 @@ void FischerBurmeister::jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd
       by_f_[i] = outer.by_b * inner.by_b;
     }
   }
+}
+
+void FischerBurmeister::jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd& f,
+                                 const Eigen::SparseMatrix<double>& jacobian,
+                                 Eigen::SparseMatrix<double>& h) {
+  find_slopes(z, f);
+  Eigen::SparseMatrix<double> diagonal(z.size(), z.size());
+  diagonal = by_z_.asDiagonal();
+  h = by_f_.asDiagonal() * jacobian;
+  h += diagonal;
+}
+
+void FischerBurmeister::jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd& f,
+                                 const Eigen::MatrixXd& jacobian, Eigen::Map<Eigen::MatrixXd> h) {
+  find_slopes(z, f);
+  const Index n = z.size();
   for (Index j = 0; j < n; ++j) {
     for (Index i = 0; i < n; ++i) h(i, j) = by_f_[i] * jacobian(i, j);
     h(j, j) += by_z_[j];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace touchstone {
 
@@ -22,8 +23,13 @@ class FischerBurmeister {
   /// Phi, every entry. J is that of F. `h` may not overlap `jacobian`.
   void jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd& f, const Eigen::MatrixXd& jacobian,
                 Eigen::Map<Eigen::MatrixXd> h);
+  /// The same for a sparse J. Allocates.
+  void jacobian(const Eigen::VectorXd& z, const Eigen::VectorXd& f,
+                const Eigen::SparseMatrix<double>& jacobian, Eigen::SparseMatrix<double>& h);
 
  private:
+  void find_slopes(const Eigen::VectorXd& z, const Eigen::VectorXd& f);
+
   const Eigen::VectorXd* lower_ = nullptr;
   const Eigen::VectorXd* upper_ = nullptr;
   double weight_ = 1.0;

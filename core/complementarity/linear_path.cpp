@@ -72,9 +72,30 @@ LinearPathResult LinearPath::lemke(const Eigen::MatrixXd& m, const Eigen::Vector
   return pursue_from_infinity(ones_, z);
 }
 
+LinearPathResult LinearPath::lemke(const ColumnSource& m, const Eigen::VectorXd& q,
+                                   const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                   const Eigen::VectorXd& origin, Eigen::VectorXd& z) {
+  prepare(q);
+  basis_.bind(m, q, lower, upper, origin);
+  return pursue_from_infinity(ones_, z);
+}
+
 LinearPathResult LinearPath::follow(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
                                     const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double misfit,
                                     Eigen::VectorXd& z) {
+  return follow_matrix(m, q, lower, upper, misfit, z);
+}
+
+LinearPathResult LinearPath::follow(const ColumnSource& m, const Eigen::VectorXd& q,
+                                    const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double misfit,
+                                    Eigen::VectorXd& z) {
+  return follow_matrix(m, q, lower, upper, misfit, z);
+}
+
+template <typename Matrix>
+LinearPathResult LinearPath::follow_matrix(const Matrix& m, const Eigen::VectorXd& q,
+                                           const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                           double misfit, Eigen::VectorXd& z) {
   prepare(q);
   basis_.bind(m, q, lower, upper, z);
   if (!start_at_point(q, z) || !basis_.solve_at_target()) return finish(LinearPathStatus::singular_basis, z);

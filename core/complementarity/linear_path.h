@@ -77,12 +77,19 @@ class LinearPath {
                                        const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                                        const Eigen::VectorXd& origin, Eigen::VectorXd& z);
 
+  [[nodiscard]] LinearPathResult lemke(const ColumnSource& m, const Eigen::VectorXd& q,
+                                       const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                       const Eigen::VectorXd& origin, Eigen::VectorXd& z);
+
   /// From z, l <= z <= u, with q = F(z): origin is z. Unknowns whose z_i - q_i is outside their bounds start
   /// at the bound; if the solution has the same ones at the same bounds this costs one factorisation and no
   /// pivot.
   /// @param misfit  a dependent row of a singular start basis may be left unsatisfied by up to this, >= 0: a
   /// consistent system is, linearised, consistent to first order only
   [[nodiscard]] LinearPathResult follow(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                        const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                        double misfit, Eigen::VectorXd& z);
+  [[nodiscard]] LinearPathResult follow(const ColumnSource& m, const Eigen::VectorXd& q,
                                         const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                                         double misfit, Eigen::VectorXd& z);
 
@@ -106,6 +113,10 @@ class LinearPath {
 
   void set_size(Eigen::Index n);
   void prepare(const Eigen::VectorXd& q);
+  template <typename Matrix>
+  [[nodiscard]] LinearPathResult follow_matrix(const Matrix& m, const Eigen::VectorXd& q,
+                                               const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                               double misfit, Eigen::VectorXd& z);
   [[nodiscard]] bool start_at_bounds();
   [[nodiscard]] bool start_at_point(const Eigen::VectorXd& q, const Eigen::VectorXd& z);
   [[nodiscard]] LinearPathResult pursue_from_infinity(const Eigen::VectorXd& cover, Eigen::VectorXd& z);

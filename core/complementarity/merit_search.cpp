@@ -4,9 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/complementarity/require.h"
+#include "core/complementarity/sparse_problem.h"
 
 namespace touchstone {
 
@@ -20,9 +20,6 @@ constexpr double stationary_gradient = 1e-8;  // relative to |H| |Phi|
 constexpr double real_progress = 0.99;        // factor in the merit
 constexpr int regularised_tries = 8;
 constexpr double regularisation_growth = 10.0;
-
-// A sum is finite only if all terms are, and the quickest thing to ask.
-bool is_finite(const Eigen::MatrixXd& matrix) { return std::isfinite(matrix.sum()); }
 
 }  // namespace
 
@@ -43,17 +40,18 @@ void SearchOptions::validate() const {
 MeritSearch::MeritSearch(const SearchOptions& options) : options_(options) { options_.validate(); }
 
 void MeritSearch::resize(Index n) {
-  if (current_.z.size() == n && current_.jacobian.rows() == n) return;
+  const bool is_sparse = problem_->sparse() != nullptr;
+  const Index rows = is_sparse ? 0 : n;  // of the dense matrices
+  if (current_.z.size() == n && current_.is_sparse == is_sparse && current_.jacobian.rows() == rows) return;
   for (Iterate* point : {&current_, &trial_, &checkpoint_}) {
+    point->is_sparse = is_sparse;
     point->z.resize(n);
     point->f.resize(n);
     point->phi.resize(n);
-    point->jacobian.resize(n, n);
+    point->jacobian.resize(rows, rows);
   }
-  h_.setIdentity(n, n);
-  normal_.resize(n, n);
-  cholesky_.compute(h_);  // takes its storage here, not in the first regularised step
-  for (Eigen::VectorXd* v : {&gradient_, &step_, &best_z_}) v->resize(n);
+  normal_equations_.reserve(rows);
+  for (Eigen::VectorXd* v : {&step_, &best_z_}) v->resize(n);
 }
 
 bool MeritSearch::start(const MixedComplementarityProblem& problem, const Eigen::VectorXd& z) {
@@ -78,7 +76,7 @@ bool MeritSearch::restart(const Eigen::VectorXd& z) {
   idle_steps_ = 0;
   regularisation_ = options_.regularisation;
   stationary_ = false;
-  return std::isfinite(current_.merit) && (converged() || is_finite(current_.jacobian));
+  return std::isfinite(current_.merit) && (converged() || current_.has_finite_jacobian());
 }
 
 // A start whose F is not finite is kept too, so that the report can name the row.
@@ -89,7 +87,11 @@ void MeritSearch::note_if_best() {
 }
 
 void MeritSearch::evaluate(Iterate& point, bool with_jacobian) {
-  problem_->evaluate(point.z, point.f, with_jacobian ? &point.jacobian : nullptr);
+  if (with_jacobian && point.is_sparse) {
+    problem_->sparse()->evaluate_sparse(point.z, point.f, &point.sparse_jacobian);
+  } else {
+    problem_->evaluate(point.z, point.f, with_jacobian ? &point.jacobian : nullptr);
+  }
   ++report_.evaluations;
   report_.jacobian_evaluations += with_jacobian ? 1 : 0;
   point.has_jacobian = with_jacobian;
@@ -122,7 +124,7 @@ bool MeritSearch::trial_is_usable() {
   if (!std::isfinite(trial_.merit)) return false;
   if (trial_.residual.value <= options_.tolerance) return true;
   if (!trial_.has_jacobian) evaluate(trial_, true);
-  return is_finite(trial_.jacobian);
+  return trial_.has_finite_jacobian();
 }
 
 double MeritSearch::reference() const {
@@ -140,7 +142,7 @@ bool MeritSearch::trial_is_sufficient(double alpha, double slope) {
 }
 
 void MeritSearch::accept(bool tentative) {
-  std::swap(current_, trial_);
+  current_.swap(trial_);
   ++report_.iterations;
   report_.history.push(current_.residual.value);
   note_if_best();
@@ -169,22 +171,16 @@ bool MeritSearch::backtrack(const Eigen::VectorXd& direction, double slope, doub
 }
 
 bool MeritSearch::regularised_step() {
-  const Index n = current_.z.size();
-  reformulation_.jacobian(current_.z, current_.f, current_.jacobian, {h_.data(), n, n});
-  gradient_.noalias() = h_.transpose() * current_.phi;
-  stationary_ = gradient_.norm() <= stationary_gradient * h_.norm() * current_.phi.norm();
+  normal_equations_.form(reformulation_, current_);
+  const Eigen::VectorXd& gradient = normal_equations_.gradient();
+  stationary_ =
+      gradient.norm() <= stationary_gradient * normal_equations_.matrix_norm() * current_.phi.norm();
   if (stationary_) return false;
-  normal_.noalias() = h_.transpose() * h_;
-  const double scale = normal_.diagonal().maxCoeff() * std::min(1.0, current_.phi.norm());
+  const double scale = normal_equations_.largest_diagonal() * std::min(1.0, current_.phi.norm());
   for (int attempt = 0; attempt < regularised_tries; ++attempt) {
-    h_ = normal_;
-    h_.diagonal().array() += regularisation_ * scale;
-    cholesky_.compute(h_);
-    step_ = -gradient_;
-    cholesky_.solveInPlace(step_);
-    const double slope = gradient_.dot(step_);
-    const bool descends = cholesky_.info() == Eigen::Success && slope < 0.0;
-    if (descends && backtrack(step_, slope, longest_step(step_), false)) {
+    const bool solved = normal_equations_.solve(regularisation_ * scale, step_);
+    const double slope = solved ? gradient.dot(step_) : 0.0;
+    if (slope < 0.0 && backtrack(step_, slope, longest_step(step_), false)) {
       regularisation_ = std::max(options_.regularisation * 1e-6, regularisation_ / regularisation_growth);
       return true;
     }
@@ -193,7 +189,7 @@ bool MeritSearch::regularised_step() {
   return false;
 }
 
-void MeritSearch::restore_checkpoint() { std::swap(current_, checkpoint_); }
+void MeritSearch::restore_checkpoint() { current_.swap(checkpoint_); }
 
 SolveReport MeritSearch::finish(SolveStatus status, Eigen::VectorXd& z) {
   report_.status = status;

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 
 #include "core/complementarity/fischer_burmeister.h"
+#include "core/complementarity/iterate.h"
+#include "core/complementarity/normal_equations.h"
 #include "core/complementarity/problem.h"
 #include "core/complementarity/report.h"
-#include "core/complementarity/residual.h"
 
 namespace touchstone {
 
@@ -37,16 +37,6 @@ struct SearchOptions {
 
   /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
-};
-
-/// A point of a search with all that is known there. Once it is the current one and not solved it has a
-/// finite Jacobian.
-struct Iterate {
-  Eigen::VectorXd z, f, phi;
-  Eigen::MatrixXd jacobian;
-  NaturalResidual residual;
-  double merit = 0.0;  ///< 1/2 |Phi(z)|^2; infinity where F is not finite
-  bool has_jacobian = false;
 };
 
 /// The globalisation that both Newton methods share: iterates, their merit, the line search (nonmonotone,
@@ -90,7 +80,7 @@ class MeritSearch {
   [[nodiscard]] bool merit_is_stationary() const { return stationary_; }
 
   /// Keeps the current point to come back to; restore() goes back to it.
-  void save_checkpoint() { checkpoint_ = current_; }
+  void save_checkpoint() { checkpoint_.copy(current_); }
   void restore_checkpoint();
 
   /// Completes the report; z becomes the current point if solved, else the best seen.
@@ -113,9 +103,8 @@ class MeritSearch {
   double milestone_ = 0.0;  // the merit when the last real progress was made
   int idle_steps_ = 0;
 
-  Eigen::MatrixXd h_, normal_;
-  Eigen::VectorXd gradient_, step_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  NormalEquations normal_equations_;
+  Eigen::VectorXd step_;
   double regularisation_ = 0.0;
   bool stationary_ = false;
   SolveReport report_;

@@ -1,12 +1,14 @@
 #include "core/complementarity/path_newton.h"
 
 #include "core/complementarity/require.h"
+#include "core/complementarity/sparse_columns.h"
 
 namespace touchstone {
 
 void PathNewtonOptions::validate() const {
   search.validate();
   linear.validate();
+  require::in_closed("PathNewtonOptions.crash_steps", crash_steps, 0, 100);
   require::in_closed("PathNewtonOptions.watchdog", watchdog, 0, 16);
 }
 
@@ -20,6 +22,7 @@ SolveReport PathNewton::solve(const MixedComplementarityProblem& problem, Eigen:
   tentative_steps_ = 0;
   checkpoint_direction_.resize(z.size());
   if (!search_.start(problem, z)) return search_.finish(SolveStatus::non_finite, z);
+  crash_.run(problem, options_.crash_steps, search_);
   while (!search_.converged()) {
     if (search_.report().iterations >= options_.search.max_iterations) {
       return search_.finish(SolveStatus::iteration_limit, z);
@@ -35,13 +38,21 @@ SolveReport PathNewton::solve(const MixedComplementarityProblem& problem, Eigen:
 
 LinearPathResult PathNewton::newton_point(const MixedComplementarityProblem& problem) {
   const Iterate& at = search_.current();
+  return at.is_sparse ? newton_point(problem, SparseColumns(at.sparse_jacobian))
+                      : newton_point(problem, at.jacobian);
+}
+
+template <typename Matrix>
+LinearPathResult PathNewton::newton_point(const MixedComplementarityProblem& problem,
+                                          const Matrix& jacobian) {
+  const Iterate& at = search_.current();
   newton_point_ = at.z.cwiseMax(problem.lower()).cwiseMin(problem.upper());
   const double misfit = options_.search.consistency * at.residual.value;
   LinearPathResult linear =
-      path_.follow(at.jacobian, at.f, problem.lower(), problem.upper(), misfit, newton_point_);
+      path_.follow(jacobian, at.f, problem.lower(), problem.upper(), misfit, newton_point_);
   search_.report().pivots += linear.pivots;
   if (!linear.solved() && options_.lemke) {
-    linear = path_.lemke(at.jacobian, at.f, problem.lower(), problem.upper(), at.z, newton_point_);
+    linear = path_.lemke(jacobian, at.f, problem.lower(), problem.upper(), at.z, newton_point_);
     search_.report().pivots += linear.pivots;
   }
   direction_ = newton_point_ - at.z;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "core/complementarity/crash_start.h"
 #include "core/complementarity/linear_path.h"
 #include "core/complementarity/merit_search.h"
 #include "core/complementarity/problem.h"
@@ -13,6 +14,9 @@ namespace touchstone {
 struct PathNewtonOptions {
   SearchOptions search;
   LinearPathOptions linear;
+  /// Projected Newton steps to begin with, at most, which find most of the active set at once (CrashStart);
+  /// in [0, 100], 0: none.
+  int crash_steps = 0;
   /// Full steps in a row that may fail to decrease the merit before the search goes back to where they began
   /// (the watchdog of Chamberlain et al. 1982); in [0, 16].
   int watchdog = 4;
@@ -32,7 +36,9 @@ struct PathNewtonOptions {
 /// Where the linearised problem has no solution on its path, or the step to it gives no decrease, regularised
 /// steps on the merit take over. A singular but consistent Jacobian leaves the undetermined unknowns where
 /// they are. After the first solve of a size nothing is allocated, but for the scratch memory of Eigen's
-/// blocked algorithms above a hundred unknowns or so.
+/// blocked algorithms above a hundred unknowns or so, and for a sparse Jacobian. The columns of that are
+/// taken as the basis needs them; the basis itself is dense, with as many rows as unknowns are between their
+/// bounds.
 class PathNewton final : public ComplementaritySolver {
  public:
   explicit PathNewton(const PathNewtonOptions& options = {});
@@ -42,6 +48,9 @@ class PathNewton final : public ComplementaritySolver {
 
  private:
   [[nodiscard]] LinearPathResult newton_point(const MixedComplementarityProblem& problem);
+  template <typename Matrix>
+  [[nodiscard]] LinearPathResult newton_point(const MixedComplementarityProblem& problem,
+                                              const Matrix& jacobian);
   [[nodiscard]] bool search_along_step();
   [[nodiscard]] bool search_from_checkpoint();
   [[nodiscard]] double slope() const;
@@ -49,6 +58,7 @@ class PathNewton final : public ComplementaritySolver {
 
   PathNewtonOptions options_;
   MeritSearch search_;
+  CrashStart crash_;
   LinearPath path_;
   Eigen::VectorXd newton_point_, direction_, checkpoint_direction_;
   int tentative_steps_ = 0;

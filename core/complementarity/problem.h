@@ -5,6 +5,8 @@
 
 namespace touchstone {
 
+class SparseComplementarityProblem;
+
 /// A mixed complementarity problem: find z with  l <= z _|_ F(z) <= u, that is, row by row
 ///   z_i = l_i and F_i(z) >= 0,   or   l_i < z_i < u_i and F_i(z) = 0,   or   z_i = u_i and F_i(z) <= 0.
 /// A row with infinite bounds on both sides is an equation and its z_i is free.
@@ -25,6 +27,9 @@ class MixedComplementarityProblem {
   /// dF/dz, size() x size(), every entry. Both are already of the right size. Does not allocate. Where F is
   /// not defined the entries are not finite; a solver treats such a z as one it may not step to.
   virtual void evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f, Eigen::MatrixXd* jacobian) const = 0;
+
+  /// This problem with its Jacobian as a sparse matrix, which a solver then prefers; null if it has none.
+  [[nodiscard]] virtual const SparseComplementarityProblem* sparse() const { return nullptr; }
 
   /// What a row states, for messages: "gap of contact 2 (ball, ground)".
   [[nodiscard]] virtual std::string row_name(Eigen::Index row) const { return "row " + std::to_string(row); }

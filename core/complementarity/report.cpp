@@ -36,6 +36,8 @@ std::string_view to_string(StageStart start) {
   switch (start) {
     case StageStart::given:
       return "given";
+    case StageStart::crash:
+      return "crash";
     case StageStart::proximal:
       return "proximal";
     case StageStart::perturbed:
@@ -50,8 +52,9 @@ std::string describe(const SolveReport& report, const MixedComplementarityProble
                                  to_string(report.status), report.iterations, report.pivots,
                                  report.evaluations, report.residual, worst);
   for (const SolveStage& stage : report.stages.values()) {
-    text += fmt::format("; {} from the {} start: {} at {:.3e}", to_string(stage.solver),
-                        to_string(stage.start), to_string(stage.status), stage.residual);
+    const std::string term = stage.weight > 0 ? fmt::format(" with weight {:.1e}", stage.weight) : "";
+    text += fmt::format("; {} from the {} start{}: {} at {:.3e}", to_string(stage.solver),
+                        to_string(stage.start), term, to_string(stage.status), stage.residual);
   }
   return text;
 }

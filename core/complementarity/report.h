@@ -62,7 +62,8 @@ enum class SolverKind : std::uint8_t { path_newton, semismooth_newton };
 /// Where a stage of a solver chain started.
 enum class StageStart : std::uint8_t {
   given,     ///< the caller's start
-  proximal,  ///< the end of a homotopy in a proximal term, itself from the caller's start
+  crash,     ///< the caller's start, after projected Newton steps (CrashStart)
+  proximal,  ///< where the last proximal step led, the first of which is from the caller's start
   perturbed  ///< a pseudorandom point around the caller's start
 };
 [[nodiscard]] std::string_view to_string(StageStart start);
@@ -73,7 +74,8 @@ struct SolveStage {
   StageStart start;
   SolveStatus status;
   int iterations;
-  double residual;  ///< natural residual where the attempt ended
+  double residual;      ///< natural residual where the attempt ended, of what it was to solve
+  double weight = 0.0;  ///< of the proximal term in what it was to solve; 0: the problem itself
 };
 
 /// What a complementarity solver did, complete on every exit.
@@ -87,7 +89,7 @@ struct SolveReport {
   double residual = std::numeric_limits<double>::infinity();
   Eigen::Index worst_row = -1;  ///< row of that residual
   ResidualHistory history;
-  RecordList<SolveStage, 16> stages;  ///< attempts of a solver chain; empty of a single solver
+  RecordList<SolveStage, 24> stages;  ///< attempts of a solver chain; empty of a single solver
 
   [[nodiscard]] bool solved() const { return status == SolveStatus::solved; }
 };

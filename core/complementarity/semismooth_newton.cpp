@@ -47,11 +47,24 @@ void SemismoothNewton::fill_newton_matrix() {
 }
 
 bool SemismoothNewton::newton_direction() {
+  if (search_.current().is_sparse) return sparse_newton_direction();
   fill_newton_matrix();
   if (!lu_.factor(singular_pivot)) return least_norm_direction();
   direction_ = -search_.current().phi;
   lu_.solve(direction_.data());
   return direction_.allFinite();
+}
+
+bool SemismoothNewton::sparse_newton_direction() {
+  const Iterate& at = search_.current();
+  search_.reformulation().jacobian(at.z, at.f, at.sparse_jacobian, sparse_matrix_);
+  sparse_lu_.compute(sparse_matrix_);
+  if (sparse_lu_.info() != Eigen::Success) return false;
+  misfit_ = -at.phi;
+  direction_ = sparse_lu_.solve(misfit_);
+  if (!direction_.allFinite()) return false;
+  misfit_ -= sparse_matrix_ * direction_;  // a matrix that is singular but for rounding shows here
+  return misfit_.norm() <= options_.search.consistency * at.phi.norm();
 }
 
 // The shortest solution of H d = -Phi, if there is one up to what linearisation hides.

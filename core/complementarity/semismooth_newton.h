@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 
 #include "core/complementarity/dense_lu.h"
 #include "core/complementarity/merit_search.h"
@@ -29,7 +31,8 @@ struct SemismoothNewtonOptions {
 /// A singular but consistent Newton system (an unknown that nothing determines) gives the shortest step; an
 /// inconsistent one, or a direction without decrease, gives regularised steps that turn towards the gradient.
 /// After the first solve of a size nothing is allocated, but for the scratch memory of Eigen's blocked
-/// algorithms above a hundred unknowns or so.
+/// algorithms above a hundred unknowns or so. A sparse Jacobian is factorised as such, which allocates; where
+/// it is singular the step is a regularised one, consistent or not.
 class SemismoothNewton final : public ComplementaritySolver {
  public:
   explicit SemismoothNewton(const SemismoothNewtonOptions& options = {});
@@ -39,12 +42,15 @@ class SemismoothNewton final : public ComplementaritySolver {
  private:
   [[nodiscard]] SolveStatus search(bool project);
   [[nodiscard]] bool newton_direction();
+  [[nodiscard]] bool sparse_newton_direction();
   [[nodiscard]] bool least_norm_direction();
   void fill_newton_matrix();
 
   SemismoothNewtonOptions options_;
   MeritSearch search_;
   DenseLu lu_;
+  Eigen::SparseMatrix<double> sparse_matrix_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu_;
   Eigen::VectorXd direction_, misfit_;
 };
 

@@ -24,11 +24,23 @@ double next_random(std::uint64_t& state) {
   return std::ldexp(static_cast<double>(x >> 11U), -52) - 1.0;
 }
 
+const SolverChainOptions& validated(const SolverChainOptions& options) {
+  options.validate();
+  return options;
+}
+
+PathNewtonOptions with_crash(PathNewtonOptions options, int steps) {
+  options.crash_steps = steps;
+  return options;
+}
+
 }  // namespace
 
 void SolverChainOptions::validate() const {
   path.validate();
   semismooth.validate();
+  require::at_least("SolverChainOptions.largest_pivoting", largest_pivoting, 0);
+  require::in_closed("SolverChainOptions.crash_steps", crash_steps, 0, 100);
   require::in_closed("SolverChainOptions.proximal_steps", proximal_steps, 0, 16);
   require::positive("SolverChainOptions.proximal_weight", proximal_weight);
   require::in_closed("SolverChainOptions.restarts", restarts, 0, 64);
@@ -36,9 +48,10 @@ void SolverChainOptions::validate() const {
 }
 
 SolverChain::SolverChain(const SolverChainOptions& options)
-    : options_(options), path_(options.path), semismooth_(options.semismooth) {
-  options_.validate();
-}
+    : options_(validated(options)),
+      path_(options.path),
+      crashing_path_(with_crash(options.path, options.crash_steps)),
+      semismooth_(options.semismooth) {}
 
 SolveReport SolverChain::solve(const MixedComplementarityProblem& problem, Eigen::VectorXd& z) {
   problem_ = &problem;
@@ -58,9 +71,13 @@ bool SolverChain::fall_back() {
   random_state_ = options_.seed;
   z_ = start_;
   if (options_.second && attempt(other(options_.first), StageStart::given)) return true;
+  if (options_.crash_steps > 0) {
+    z_ = start_;
+    if (attempt(SolverKind::path_newton, StageStart::crash)) return true;
+  }
   if (options_.proximal_steps > 0) {
-    walk_proximal_homotopy();
-    if (attempt(options_.first, StageStart::proximal)) return true;
+    walk_proximally();
+    if (attempt(SolverKind::semismooth_newton, StageStart::proximal)) return true;
   }
   for (int restart = 0; restart < options_.restarts; ++restart) {
     perturb_start(restart);
@@ -73,8 +90,12 @@ bool SolverChain::fall_back() {
 // One solve of the problem itself from z_, entered in the report. Of failures the report keeps the one that
 // came closest.
 bool SolverChain::attempt(SolverKind solver, StageStart start) {
-  const SolveReport stage = run(solver, *problem_, z_);
-  report_.stages.push({solver, start, stage.status, stage.iterations, stage.residual});
+  if (solver == SolverKind::path_newton && !may_pivot()) {
+    if (start == StageStart::crash) return false;
+    solver = SolverKind::semismooth_newton;
+  }
+  const SolveReport stage = run(solver_for(solver, start), *problem_, z_);
+  report_.stages.push({solver, start, stage.status, stage.iterations, stage.residual, 0.0});
   report_.history = stage.history;
   const bool better =
       report_.status == SolveStatus::not_run || stage.solved() || stage.residual < report_.residual;
@@ -87,10 +108,18 @@ bool SolverChain::attempt(SolverKind solver, StageStart start) {
   return stage.solved();
 }
 
-SolveReport SolverChain::run(SolverKind solver, const MixedComplementarityProblem& problem,
+bool SolverChain::may_pivot() const {
+  return problem_->sparse() == nullptr || problem_->size() <= options_.largest_pivoting;
+}
+
+ComplementaritySolver& SolverChain::solver_for(SolverKind solver, StageStart start) {
+  if (solver == SolverKind::semismooth_newton) return semismooth_;
+  return start == StageStart::crash ? crashing_path_ : path_;
+}
+
+SolveReport SolverChain::run(ComplementaritySolver& solver, const MixedComplementarityProblem& problem,
                              Eigen::VectorXd& z) {
-  const SolveReport report =
-      solver == SolverKind::path_newton ? path_.solve(problem, z) : semismooth_.solve(problem, z);
+  const SolveReport report = solver.solve(problem, z);
   report_.iterations += report.iterations;
   report_.pivots += report.pivots;
   report_.evaluations += report.evaluations;
@@ -98,15 +127,29 @@ SolveReport SolverChain::run(SolverKind solver, const MixedComplementarityProble
   return report;
 }
 
-// From the start, to whose surroundings a large weight ties the solution, with less and less of it. A weight
-// that fails leaves its best point to the next one.
-void SolverChain::walk_proximal_homotopy() {
-  z_ = start_;
+// The proximal point method: a step that is solved moves the center and lets go of it a little, one that is
+// not begins again with a firmer hold.
+void SolverChain::walk_proximally() {
+  center_ = start_;
   double weight = options_.proximal_weight;
-  for (int step = 0; step < options_.proximal_steps; ++step, weight *= 0.1) {
-    proximal_.bind(*problem_, start_, weight);
-    [[maybe_unused]] const SolveReport on_the_way = run(options_.first, proximal_, z_);
+  for (int step = 0; step < options_.proximal_steps; ++step) {
+    z_ = center_;
+    const SolveReport stage = run(semismooth_, with_proximal_term(weight), z_);
+    report_.stages.push({SolverKind::semismooth_newton, StageStart::proximal, stage.status, stage.iterations,
+                         stage.residual, weight});
+    if (stage.solved()) center_ = z_;
+    weight *= stage.solved() ? 0.1 : 10.0;
   }
+  z_ = center_;
+}
+
+const MixedComplementarityProblem& SolverChain::with_proximal_term(double weight) {
+  if (const SparseComplementarityProblem* sparse = problem_->sparse(); sparse != nullptr) {
+    sparse_proximal_.bind(*sparse, center_, weight);
+    return sparse_proximal_;
+  }
+  proximal_.bind(*problem_, center_, weight);
+  return proximal_;
 }
 
 void SolverChain::perturb_start(int restart) {

@@ -2,10 +2,13 @@ target_sources(touchstone_core PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/basis_core.cpp
   ${CMAKE_CURRENT_LIST_DIR}/column_cache.cpp
   ${CMAKE_CURRENT_LIST_DIR}/complementary_basis.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/crash_start.cpp
   ${CMAKE_CURRENT_LIST_DIR}/dense_lu.cpp
   ${CMAKE_CURRENT_LIST_DIR}/fischer_burmeister.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/iterate.cpp
   ${CMAKE_CURRENT_LIST_DIR}/linear_path.cpp
   ${CMAKE_CURRENT_LIST_DIR}/merit_search.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/normal_equations.cpp
   ${CMAKE_CURRENT_LIST_DIR}/path_newton.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ratio_test.cpp
   ${CMAKE_CURRENT_LIST_DIR}/report.cpp

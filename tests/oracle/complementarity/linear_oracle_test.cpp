@@ -18,7 +18,7 @@
 #include "core/complementarity/residual.h"
 #include "core/complementarity/semismooth_newton.h"
 #include "core/complementarity/solver_chain.h"
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 namespace touchstone {
 namespace {
@@ -142,8 +142,8 @@ void expect_all_solve(const LinearProblem& problem, bool unique, const std::stri
   EXPECT_TRUE(path.lemke(problem.m, problem.q, problem.lower, problem.upper, VectorXd::Zero(n), z).solved())
       << label;
   check(z, "lemke");
-  const testing::FunctionProblem function(problem.lower, problem.upper,
-                                          testing::linear(problem.m, problem.q));
+  const problems::FunctionProblem function(problem.lower, problem.upper,
+                                           problems::linear(problem.m, problem.q));
   PathNewton path_newton;
   SemismoothNewton semismooth_newton;
   for (const double start : {0.0, 3.0}) {
@@ -238,7 +238,7 @@ TEST(LinearOracle, AgainstEnumeration) {
     options.restarts = 4;
     SolverChain chain(options);
     z = VectorXd::Zero(n);
-    const SolveReport report = chain.solve(testing::FunctionProblem(n, testing::linear(m, q)), z);
+    const SolveReport report = chain.solve(problems::FunctionProblem(n, problems::linear(m, q)), z);
     if (!expected) {
       EXPECT_FALSE(lemke.solved()) << sample;
       EXPECT_FALSE(report.solved()) << sample;

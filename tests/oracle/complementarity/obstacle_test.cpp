@@ -7,8 +7,8 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/checks.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
@@ -18,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Of  l <= z _|_ M z + q <= u  with M symmetric and positive definite (Cryer 1971).
-VectorXd projected_gauss_seidel(const testing::FunctionProblem& problem) {
+VectorXd projected_gauss_seidel(const problems::FunctionProblem& problem) {
   const Index n = problem.size();
   MatrixXd m(n, n);
   VectorXd q(n);
@@ -39,7 +39,7 @@ VectorXd projected_gauss_seidel(const testing::FunctionProblem& problem) {
 
 TEST(Obstacle, BothMethodsAgreeWithGaussSeidel) {
   for (const Index side : {5, 10, 20}) {
-    const testing::TestProblem test = testing::obstacle(side);
+    const problems::TestProblem test = problems::obstacle(side);
     const VectorXd expected = projected_gauss_seidel(*test.problem);
     ASSERT_LT(natural_residual(*test.problem, expected).value, 1e-11);
     const Index n = expected.size();

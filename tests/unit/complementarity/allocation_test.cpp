@@ -11,9 +11,9 @@
 
 #include "core/complementarity/linear_path.h"
 #include "core/complementarity/solver_chain.h"
+#include "experiments/problems/literature.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/unit/complementarity/box_step.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
@@ -43,7 +43,7 @@ TEST_F(Allocation, IsCounted) {
 }
 
 /// Every start once, so that all sizes were seen, then every start again under the count.
-void expect_no_allocation(ComplementaritySolver& solver, const testing::TestProblem& test) {
+void expect_no_allocation(ComplementaritySolver& solver, const problems::TestProblem& test) {
   VectorXd z;
   SolveReport report;
   const auto solve_all = [&] {
@@ -57,7 +57,7 @@ void expect_no_allocation(ComplementaritySolver& solver, const testing::TestProb
 }
 
 TEST_F(Allocation, NoneInASecondSolveOfTheTable) {
-  for (const testing::TestProblem& test : testing::all_problems()) {
+  for (const problems::TestProblem& test : problems::all_problems()) {
     PathNewton path;
     SemismoothNewton semismooth;
     SolverChain chain;
@@ -100,8 +100,8 @@ class Columns final : public ColumnSource {
 
 TEST_F(Allocation, NoneInASecondPivoting) {
   const Index n = 8;
-  const MatrixXd m = testing::murty_matrix(n);
-  const VectorXd q = testing::murty_q(n);
+  const MatrixXd m = problems::murty_matrix(n);
+  const VectorXd q = problems::murty_q(n);
   const VectorXd zero = VectorXd::Zero(n);
   const VectorXd upper = VectorXd::Constant(n, infinity);
   const VectorXd cover = VectorXd::Ones(n);

@@ -9,7 +9,7 @@
 
 #include "core/complementarity/report.h"
 #include "core/complementarity/residual.h"
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 namespace touchstone::testing {
 
@@ -29,7 +29,7 @@ inline void expect_honest(const SolveReport& report, const MixedComplementarityP
 }
 
 /// Distance from z to the nearest of the listed solutions, largest entry; 0 if none is listed.
-inline double distance_to_solutions(const TestProblem& test, const Eigen::VectorXd& z) {
+inline double distance_to_solutions(const problems::TestProblem& test, const Eigen::VectorXd& z) {
   if (test.solutions.empty() || !test.solutions_are_all) return 0.0;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::VectorXd& solution : test.solutions) {
@@ -39,8 +39,8 @@ inline double distance_to_solutions(const TestProblem& test, const Eigen::Vector
 }
 
 /// A solved problem of the table: honest, and at a known solution.
-inline void expect_solved(const SolveReport& report, const TestProblem& test, const Eigen::VectorXd& z,
-                          double tolerance) {
+inline void expect_solved(const SolveReport& report, const problems::TestProblem& test,
+                          const Eigen::VectorXd& z, double tolerance) {
   EXPECT_TRUE(report.solved()) << test.name << ": " << describe(report, *test.problem);
   expect_honest(report, *test.problem, z, tolerance);
   // A residual of 1e-10 can leave z off by its square root where the solution is degenerate.

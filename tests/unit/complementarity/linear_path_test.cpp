@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/complementarity/residual.h"
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 namespace touchstone {
 namespace {
@@ -28,8 +28,8 @@ TEST(Lemke, MurtyTakesTwoToTheNPivots) {
   options.max_pivots = 5000;
   LinearPath path(options);
   for (int n = 1; n <= 12; ++n) {
-    const MatrixXd m = testing::murty_matrix(n);
-    const VectorXd q = testing::murty_q(n);
+    const MatrixXd m = problems::murty_matrix(n);
+    const VectorXd q = problems::murty_q(n);
     VectorXd z;
     const LinearPathResult result = path.lemke(m, q, z);
     ASSERT_TRUE(result.solved()) << n;
@@ -52,8 +52,8 @@ TEST(Lemke, TheCoveringVectorChangesThePath) {
   LinearPath path;
   const Index n = 6;
   VectorXd z;
-  const MatrixXd m = testing::murty_matrix(n);
-  const VectorXd q = testing::murty_q(n);
+  const MatrixXd m = problems::murty_matrix(n);
+  const VectorXd q = problems::murty_q(n);
   // Later rows are covered so well that the first unknown, which alone is positive at the end, enters first.
   VectorXd cover(n);
   for (Index i = 0; i < n; ++i) cover[i] = std::pow(4.0, static_cast<double>(i));
@@ -68,7 +68,7 @@ TEST(Lemke, StopsAtThePivotLimitAndSaysSo) {
   options.max_pivots = 20;
   LinearPath path(options);
   VectorXd z;
-  const LinearPathResult result = path.lemke(testing::murty_matrix(6), testing::murty_q(6), z);
+  const LinearPathResult result = path.lemke(problems::murty_matrix(6), problems::murty_q(6), z);
   EXPECT_EQ(result.status, LinearPathStatus::pivot_limit);
   EXPECT_EQ(result.pivots, 20);
   EXPECT_GT(result.parameter, 0);
@@ -128,7 +128,7 @@ TEST(Lemke, SolvesFullyTiedProblems) {
     EXPECT_GT(result.ties_broken, 0);
     EXPECT_LT(lcp_residual(ones, q, z), 1e-12);
     if (n > 5) continue;  // exponentially many pivots
-    const MatrixXd murty = testing::murty_matrix(n);
+    const MatrixXd murty = problems::murty_matrix(n);
     result = path.lemke(murty, q, z);
     ASSERT_TRUE(result.solved()) << n;
     EXPECT_LT(lcp_residual(murty, q, z), 1e-12);
@@ -192,7 +192,7 @@ TEST(Lemke, TakesBoundsAndFreeUnknowns) {
 }
 
 TEST(PathFollowing, FromTheSolutionsActiveSetTakesNoPivot) {
-  const testing::TestProblem test = testing::path4();
+  const problems::TestProblem test = problems::path4();
   MatrixXd m(4, 4);
   VectorXd f(4);
   VectorXd z = Eigen::Vector4d(2, 0, 1, 1);
@@ -215,8 +215,8 @@ LinearPathResult follow(const MatrixXd& m, const VectorXd& q, const VectorXd& lo
 
 TEST(PathFollowing, SolvesMurtyFromEverywhere) {
   const Index n = 8;
-  const MatrixXd m = testing::murty_matrix(n);
-  const VectorXd q = testing::murty_q(n);
+  const MatrixXd m = problems::murty_matrix(n);
+  const VectorXd q = problems::murty_q(n);
   const VectorXd upper = VectorXd::Constant(n, infinity);
   for (const double start : {0.0, 1.0, 300.0}) {
     VectorXd z = VectorXd::Constant(n, start);

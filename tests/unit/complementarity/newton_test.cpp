@@ -8,8 +8,8 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/checks.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using testing::FunctionProblem;
-using testing::TestProblem;
+using problems::FunctionProblem;
+using problems::TestProblem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-10;
@@ -26,7 +26,7 @@ constexpr double tolerance = 1e-10;
 TEST(TestProblems, EveryJacobianIsTheDerivative) {
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> uniform(0.1, 2.0);
-  for (const TestProblem& test : testing::all_problems()) {
+  for (const TestProblem& test : problems::all_problems()) {
     const Index n = test.problem->size();
     VectorXd f(n), above(n), below(n);
     MatrixXd jacobian = MatrixXd::Constant(n, n, std::nan(""));
@@ -50,7 +50,7 @@ TEST(TestProblems, EveryJacobianIsTheDerivative) {
 }
 
 TEST(TestProblems, TheListedSolutionsAreSolutions) {
-  for (const TestProblem& test : testing::all_problems()) {
+  for (const TestProblem& test : problems::all_problems()) {
     for (const VectorXd& solution : test.solutions) {
       // Six decimals of z, and the slope of F: nash's costs are steep.
       EXPECT_LT(natural_residual(*test.problem, solution).value, test.name.starts_with("nash") ? 1e-4 : 1e-9)
@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Both, Newton,
                          [](const auto& test_info) { return std::string(to_string(test_info.param)); });
 
 TEST_P(Newton, SolvesTheTableFromEveryStartButBillupsTraps) {
-  for (const TestProblem& test : testing::all_problems()) {
+  for (const TestProblem& test : problems::all_problems()) {
     for (const VectorXd& start : test.starts) {
       VectorXd z = start;
       const SolveReport report = solve(*test.problem, z);
@@ -98,7 +98,7 @@ TEST_P(Newton, SolvesTheTableFromEveryStartButBillupsTraps) {
 }
 
 TEST_P(Newton, ConvergesQuadratically) {
-  const TestProblem test = testing::nash10();
+  const TestProblem test = problems::nash10();
   VectorXd z = test.starts[3];
   const SolveReport report = solve(*test.problem, z);
   ASSERT_TRUE(report.solved());
@@ -109,9 +109,9 @@ TEST_P(Newton, ConvergesQuadratically) {
 }
 
 TEST_P(Newton, AStartThatIsASolutionIsLeftAlone) {
-  VectorXd z = testing::path4().solutions[0];
+  VectorXd z = problems::path4().solutions[0];
   const VectorXd start = z;
-  const SolveReport report = solve(*testing::path4().problem, z);
+  const SolveReport report = solve(*problems::path4().problem, z);
   EXPECT_TRUE(report.solved());
   EXPECT_EQ(report.iterations, 0);
   EXPECT_EQ(report.evaluations, 1);
@@ -119,10 +119,10 @@ TEST_P(Newton, AStartThatIsASolutionIsLeftAlone) {
 }
 
 TEST_P(Newton, AnswersDoNotDependOnWhatWasSolvedBefore) {
-  const TestProblem test = testing::josephy();
+  const TestProblem test = problems::josephy();
   VectorXd first = test.starts[2];
   const SolveReport fresh = solve(*test.problem, first);
-  for (const TestProblem& other : testing::all_problems()) {
+  for (const TestProblem& other : problems::all_problems()) {
     VectorXd z = other.starts[0];
     [[maybe_unused]] const SolveReport report = solve(*other.problem, z);
   }
@@ -152,7 +152,7 @@ TEST_P(Newton, AnEquationWithoutARootIsALocalMinimum) {
 TEST_P(Newton, InfeasibleRowsAreNotSolved) {
   MatrixXd m(2, 2);
   m << -1, 0, 0, 1;
-  const FunctionProblem problem(2, testing::linear(m, Eigen::Vector2d(-1, -1)));
+  const FunctionProblem problem(2, problems::linear(m, Eigen::Vector2d(-1, -1)));
   for (const double start : {0.0, 1.0, 30.0}) {
     VectorXd z = VectorXd::Constant(2, start);
     const SolveReport report = solve(problem, z);
@@ -163,7 +163,7 @@ TEST_P(Newton, InfeasibleRowsAreNotSolved) {
 
 TEST_P(Newton, ContradictoryEquationsAreNotSolved) {
   const FunctionProblem problem(VectorXd::Constant(2, -infinity), VectorXd::Constant(2, infinity),
-                                testing::linear(MatrixXd::Ones(2, 2), Eigen::Vector2d(0, -1)));
+                                problems::linear(MatrixXd::Ones(2, 2), Eigen::Vector2d(0, -1)));
   VectorXd z = Eigen::Vector2d(0.3, 0.4);
   const SolveReport report = solve(problem, z);
   testing::expect_honest(report, problem, z, tolerance);
@@ -224,7 +224,7 @@ TEST_P(Newton, TakesRowsThatAreOnlySemismooth) {
 }
 
 TEST_P(Newton, ASingularConsistentJacobianDoesNotMoveWhatItDoesNotDetermine) {
-  const TestProblem test = testing::undetermined();
+  const TestProblem test = problems::undetermined();
   for (const VectorXd& start : test.starts) {
     VectorXd z = start;
     const SolveReport report = solve(*test.problem, z);
@@ -238,7 +238,7 @@ TEST_P(Newton, AFixedUnknownStaysAndItsRowSaysNothing) {
   // 2 z_1 - z_2 - 4 = 0 with z_2 = 3 fixed, whatever F_2.
   const FunctionProblem problem(
       Eigen::Vector2d(-infinity, 3), Eigen::Vector2d(infinity, 3),
-      testing::linear((Eigen::Matrix2d() << 2, -1, 5, 1).finished(), Eigen::Vector2d(-4, 70)));
+      problems::linear((Eigen::Matrix2d() << 2, -1, 5, 1).finished(), Eigen::Vector2d(-4, 70)));
   for (const double start : {0.0, 3.0, 50.0}) {
     VectorXd z = VectorXd::Constant(2, start);
     const SolveReport report = solve(problem, z);
@@ -257,7 +257,7 @@ TEST_P(Newton, NoUnknownsAreNoProblem) {
 }
 
 TEST(PathNewton, WithoutAChangeOfTheActiveSetThereIsNoPivot) {
-  const TestProblem test = testing::nash10();
+  const TestProblem test = problems::nash10();
   PathNewton solver;
   VectorXd z = test.starts[3];
   const SolveReport report = solver.solve(*test.problem, z);
@@ -272,7 +272,7 @@ TEST(PathNewton, WithoutAChangeOfTheActiveSetThereIsNoPivot) {
 TEST(PathNewton, ALinearProblemIsOneStep) {
   PathNewton solver;
   for (const TestProblem& test :
-       {testing::munson1(), testing::path4(), testing::murty(8), testing::obstacle(8)}) {
+       {problems::munson1(), problems::path4(), problems::murty(8), problems::obstacle(8)}) {
     for (const VectorXd& start : test.starts) {
       VectorXd z = start;
       const SolveReport report = solver.solve(*test.problem, z);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/complementarity/solver_chain.h"
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/box_step.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
@@ -30,7 +30,7 @@ std::vector<double> trace(ComplementaritySolver& solver) {
                     static_cast<double>(report.pivots), static_cast<double>(report.evaluations),
                     report.residual, static_cast<double>(report.stages.count())});
   };
-  for (const testing::TestProblem& test : testing::all_problems()) {
+  for (const problems::TestProblem& test : problems::all_problems()) {
     for (VectorXd z : test.starts) note(solver.solve(*test.problem, z));
   }
   std::mt19937 engine(3);
@@ -94,6 +94,7 @@ TEST(Options, EveryOptionIsReadByThePathMethod) {
   read("consistency", [](Options& o) { o.search.consistency = 0.0; });
   read("watchdog", [](Options& o) { o.watchdog = 0; });
   read("lemke", [](Options& o) { o.lemke = false; });
+  read("crash_steps", [](Options& o) { o.crash_steps = 5; });
   read("linear.max_pivots", [](Options& o) { o.linear.max_pivots = 1; });
   // The tolerances of the pivoter are tested with it: LinearPathOptions.
 }
@@ -107,6 +108,7 @@ TEST(Options, EveryOptionIsReadByTheChain) {
   read("semismooth", [](Options& o) { o.semismooth.search.memory = 1; });
   read("first", [](Options& o) { o.first = SolverKind::semismooth_newton; });
   read("second", [](Options& o) { o.second = false; });
+  read("crash_steps", [](Options& o) { o.crash_steps = 0; });
   read("proximal_steps", [](Options& o) { o.proximal_steps = 1; });
   read("proximal_weight", [](Options& o) { o.proximal_weight = 100.0; });
   read("restarts", [](Options& o) { o.restarts = 2; });
@@ -179,6 +181,12 @@ TEST(Options, BadSolverOptionsAreRefusedWithFieldValueAndBound) {
     change(options);
     expect_refused([&] { SolverChain solver(options); }, parts);
   };
+  path([](PathNewtonOptions& o) { o.crash_steps = 101; },
+       {"PathNewtonOptions.crash_steps", "101", "[0, 100]"});
+  chain([](SolverChainOptions& o) { o.crash_steps = -1; },
+        {"SolverChainOptions.crash_steps", "-1", "[0, 100]"});
+  chain([](SolverChainOptions& o) { o.largest_pivoting = -1; },
+        {"SolverChainOptions.largest_pivoting", "-1", ">= 0"});
   chain([](SolverChainOptions& o) { o.proximal_steps = 17; },
         {"SolverChainOptions.proximal_steps", "17", "[0, 16]"});
   chain([](SolverChainOptions& o) { o.proximal_weight = 0; },

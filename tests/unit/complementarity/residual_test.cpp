@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/complementarity/report.h"
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 namespace touchstone {
 namespace {
@@ -64,7 +64,7 @@ TEST(NaturalResidual, IsInfiniteWhereAnythingIsNotFinite) {
 }
 
 TEST(NaturalResidual, OfAProblemEvaluatesIt) {
-  const testing::TestProblem test = testing::path4();
+  const problems::TestProblem test = problems::path4();
   EXPECT_LT(natural_residual(*test.problem, test.solutions[0]).value, 1e-14);
   EXPECT_EQ(natural_residual(*test.problem, VectorXd::Zero(4)).value, 6);
   EXPECT_EQ(natural_residual(*test.problem, VectorXd::Zero(4)).worst_row, 3);
@@ -86,7 +86,7 @@ TEST(Report, DescribesTheWorstRowByName) {
   report.residual = 0.25;
   report.worst_row = 2;
   report.stages.push({SolverKind::semismooth_newton, StageStart::perturbed, SolveStatus::stalled, 7, 0.5});
-  const std::string text = describe(report, *testing::munson1().problem);
+  const std::string text = describe(report, *problems::munson1().problem);
   EXPECT_NE(text.find("ray_termination"), std::string::npos) << text;
   EXPECT_NE(text.find("row 2"), std::string::npos) << text;
   EXPECT_NE(text.find("semismooth_newton from the perturbed start: stalled"), std::string::npos) << text;

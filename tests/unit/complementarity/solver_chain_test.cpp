@@ -5,16 +5,16 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/problems/literature.h"
 #include "tests/unit/complementarity/checks.h"
-#include "tests/unit/complementarity/problems.h"
 
 namespace touchstone {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using testing::FunctionProblem;
-using testing::TestProblem;
+using problems::FunctionProblem;
+using problems::TestProblem;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -23,7 +23,7 @@ TEST(SolverChain, SolvesEveryStartOfTheTable) {
     SolverChainOptions options;
     options.first = first;
     SolverChain chain(options);
-    for (const TestProblem& test : testing::all_problems()) {
+    for (const TestProblem& test : problems::all_problems()) {
       for (const VectorXd& start : test.starts) {
         VectorXd z = start;
         const SolveReport report = chain.solve(*test.problem, z);
@@ -35,7 +35,7 @@ TEST(SolverChain, SolvesEveryStartOfTheTable) {
 }
 
 TEST(SolverChain, IsItsFirstSolverWhereThatSucceeds) {
-  const TestProblem test = testing::kojshin();
+  const TestProblem test = problems::kojshin();
   VectorXd chained = test.starts[0];
   VectorXd alone = test.starts[0];
   SolverChain chain;
@@ -51,7 +51,7 @@ TEST(SolverChain, IsItsFirstSolverWhereThatSucceeds) {
 }
 
 TEST(SolverChain, RecordsEveryStageOfAHardStart) {
-  const TestProblem test = testing::billups();
+  const TestProblem test = problems::billups();
   SolverChain chain;
   VectorXd z = VectorXd::Zero(1);
   const SolveReport report = chain.solve(*test.problem, z);
@@ -59,10 +59,17 @@ TEST(SolverChain, RecordsEveryStageOfAHardStart) {
   const auto stages = report.stages.values();
   ASSERT_GT(stages.size(), 3U);
   EXPECT_EQ(stages[0].start, StageStart::given);
+  EXPECT_EQ(stages[0].solver, SolverKind::path_newton);
+  EXPECT_EQ(stages[1].start, StageStart::given);
   EXPECT_EQ(stages[1].solver, SolverKind::semismooth_newton);
-  EXPECT_EQ(stages[2].start, StageStart::proximal);
-  EXPECT_EQ(stages[3].start, StageStart::perturbed);
-  for (std::size_t i = 0; i + 1 < stages.size(); ++i) EXPECT_NE(stages[i].status, SolveStatus::solved);
+  EXPECT_EQ(stages[2].start, StageStart::crash);
+  EXPECT_EQ(stages[2].solver, SolverKind::path_newton);
+  EXPECT_EQ(stages[3].start, StageStart::proximal);
+  EXPECT_EQ(stages[3].weight, 1.0);
+  for (std::size_t i = 0; i + 1 < stages.size(); ++i) {
+    if (stages[i].weight > 0.0) continue;  // a proximal step, which may be solved
+    EXPECT_NE(stages[i].status, SolveStatus::solved);
+  }
   EXPECT_EQ(stages.back().status, SolveStatus::solved);
   EXPECT_EQ(stages.back().residual, report.residual);
 }
@@ -81,7 +88,8 @@ TEST(SolverChain, AProblemWithoutASolutionKeepsTheBestPointAndSaysWhy) {
   testing::expect_honest(report, problem, z, 1e-10);
   EXPECT_FALSE(report.solved());
   EXPECT_NEAR(report.residual, 1.0, 1e-3);
-  EXPECT_EQ(report.stages.count(), 7);  // given twice, proximal, four perturbed
+  EXPECT_EQ(report.stages.count(),
+            11);  // given twice, crash, proximal three times and once without, 4 perturbed
 }
 
 TEST(SolverChain, FindsADefinedStartNearAnUndefinedOne) {
@@ -99,7 +107,7 @@ TEST(SolverChain, FindsADefinedStartNearAnUndefinedOne) {
 }
 
 TEST(SolverChain, RepeatsItselfToTheBit) {
-  const TestProblem test = testing::billups();
+  const TestProblem test = problems::billups();
   SolverChain chain;
   VectorXd first = VectorXd::Zero(1);
   VectorXd second = VectorXd::Zero(1);
@@ -110,7 +118,7 @@ TEST(SolverChain, RepeatsItselfToTheBit) {
 }
 
 TEST(ProximalProblem, AddsItsTermToFAndJacobian) {
-  const TestProblem test = testing::munson1();
+  const TestProblem test = problems::munson1();
   const VectorXd center = Eigen::Vector3d(1, 2, 3);
   const VectorXd z = Eigen::Vector3d(2, 2, 1);
   ProximalProblem proximal;

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "core/complementarity/problem.h"
+#include "core/complementarity/sparse_problem.h"
 
-namespace touchstone::testing {
+namespace touchstone::problems {
 
 /// A problem whose F and Jacobian are a function object; z >= 0 unless bounds are given.
 class FunctionProblem final : public MixedComplementarityProblem {
@@ -30,6 +31,23 @@ class FunctionProblem final : public MixedComplementarityProblem {
   Function function_;
 };
 
+/// F(z) = M z + q with a sparse M.
+class SparseLinearProblem final : public SparseComplementarityProblem {
+ public:
+  SparseLinearProblem(Eigen::VectorXd lower, Eigen::VectorXd upper, Matrix m, Eigen::VectorXd q);
+
+  [[nodiscard]] Eigen::Index size() const override { return q_.size(); }
+  [[nodiscard]] const Eigen::VectorXd& lower() const override { return lower_; }
+  [[nodiscard]] const Eigen::VectorXd& upper() const override { return upper_; }
+  void evaluate_sparse(const Eigen::VectorXd& z, Eigen::VectorXd& f, Matrix* jacobian) const override;
+  [[nodiscard]] const Matrix& m() const { return m_; }
+  [[nodiscard]] const Eigen::VectorXd& q() const { return q_; }
+
+ private:
+  Eigen::VectorXd lower_, upper_, q_;
+  Matrix m_;
+};
+
 /// F(z) = M z + q.
 [[nodiscard]] FunctionProblem::Function linear(Eigen::MatrixXd m, Eigen::VectorXd q);
 
@@ -40,6 +58,7 @@ struct TestProblem {
   std::vector<Eigen::VectorXd> starts;
   std::vector<Eigen::VectorXd> solutions;
   bool solutions_are_all = true;
+  bool linear = false;               ///< F is M z + q
   double solution_tolerance = 1e-6;  ///< how well the listed solutions are known
 };
 
@@ -60,6 +79,8 @@ struct TestProblem {
 [[nodiscard]] TestProblem ones2();
 /// A membrane on the unit square, `side`^2 inner nodes of a grid, between a bump below and a lid above.
 [[nodiscard]] TestProblem obstacle(Eigen::Index side);
+/// The same with its five entries a row.
+[[nodiscard]] SparseLinearProblem sparse_obstacle(Eigen::Index side);
 
 /// Two equations that tell the same of x and nothing of y, consistent at x = 1 and, beyond the first order,
 /// only there: the Jacobian is singular everywhere.
@@ -68,4 +89,4 @@ struct TestProblem {
 /// All of the above, the obstacle at a small size.
 [[nodiscard]] std::vector<TestProblem> all_problems();
 
-}  // namespace touchstone::testing
+}  // namespace touchstone::problems

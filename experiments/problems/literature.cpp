@@ -1,4 +1,4 @@
-#include "tests/unit/complementarity/problems.h"
+#include "experiments/problems/literature.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace touchstone::testing {
+namespace touchstone::problems {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -51,6 +51,13 @@ TestProblem make(std::string name, FunctionProblem problem, std::vector<VectorXd
           std::move(solutions)};
 }
 
+TestProblem make_linear(std::string name, FunctionProblem problem, std::vector<VectorXd> starts,
+                        std::vector<VectorXd> solutions) {
+  TestProblem test = make(std::move(name), std::move(problem), std::move(starts), std::move(solutions));
+  test.linear = true;
+  return test;
+}
+
 // Cournot equilibrium of Murphy, Sherali & Soyster 1982: marginal cost less marginal revenue of each firm.
 FunctionProblem::Function nash(double scale, double gamma, const VectorXd& c, const VectorXd& beta) {
   return [=](const VectorXd& q, VectorXd& f, MatrixXd* jacobian) {
@@ -75,6 +82,15 @@ FunctionProblem::FunctionProblem(Index n, Function function)
 
 FunctionProblem::FunctionProblem(VectorXd lower, VectorXd upper, Function function)
     : lower_(std::move(lower)), upper_(std::move(upper)), function_(std::move(function)) {}
+
+SparseLinearProblem::SparseLinearProblem(VectorXd lower, VectorXd upper, Matrix m, VectorXd q)
+    : lower_(std::move(lower)), upper_(std::move(upper)), q_(std::move(q)), m_(std::move(m)) {}
+
+void SparseLinearProblem::evaluate_sparse(const VectorXd& z, VectorXd& f, Matrix* jacobian) const {
+  f = q_;
+  f += m_ * z;
+  if (jacobian != nullptr) *jacobian = m_;
+}
 
 FunctionProblem::Function linear(MatrixXd m, VectorXd q) {
   return [m = std::move(m), q = std::move(q)](const VectorXd& z, VectorXd& f, MatrixXd* jacobian) {
@@ -106,16 +122,16 @@ TestProblem billups() {
 TestProblem munson1() {
   MatrixXd m(3, 3);
   m << 1, 2, 3, 0, 1, -1, 1, 1, 0;
-  return make("munson1", {3, linear(m, vec({-1, 1, 1}))},
-              {vec({0, 0, 0}), vec({1, 1, 1}), vec({0, 10, 0}), vec({0, 0, 10})}, {vec({1, 0, 0})});
+  return make_linear("munson1", {3, linear(m, vec({-1, 1, 1}))},
+                     {vec({0, 0, 0}), vec({1, 1, 1}), vec({0, 10, 0}), vec({0, 0, 10})}, {vec({1, 0, 0})});
 }
 
 TestProblem path4() {
   MatrixXd m(4, 4);
   m << 0, 0, -1, -1, 0, 0, 1, -2, 1, -1, 2, -2, 1, 2, -2, 4;
-  return make("path4", {4, linear(m, vec({2, 2, -2, -6}))},
-              {vec({0, 0, 0, 0}), vec({1, 1, 1, 1}), vec({10, 0, 10, 0}), vec({100, 100, 100, 100})},
-              {vec({2.8, 0, 0.8, 1.2})});
+  return make_linear("path4", {4, linear(m, vec({2, 2, -2, -6}))},
+                     {vec({0, 0, 0, 0}), vec({1, 1, 1, 1}), vec({10, 0, 10, 0}), vec({100, 100, 100, 100})},
+                     {vec({2.8, 0, 0.8, 1.2})});
 }
 
 TestProblem nash10() {
@@ -158,52 +174,62 @@ VectorXd murty_q(Index n) {
 TestProblem murty(Index n) {
   VectorXd solution = VectorXd::Zero(n);
   solution[0] = 1.0;
-  return make("murty" + std::to_string(n), {n, linear(murty_matrix(n), VectorXd::Constant(n, -1))},
-              {VectorXd::Zero(n), VectorXd::Ones(n), VectorXd::Constant(n, 10)}, {solution});
+  return make_linear("murty" + std::to_string(n), {n, linear(murty_matrix(n), VectorXd::Constant(n, -1))},
+                     {VectorXd::Zero(n), VectorXd::Ones(n), VectorXd::Constant(n, 10)}, {solution});
 }
 
 TestProblem bimatrix() {
   MatrixXd m = MatrixXd::Zero(4, 4);
   m.topRightCorner(2, 2) << 10, 30, 20, 15;
   m.bottomLeftCorner(2, 2) = m.topRightCorner(2, 2).transpose().eval();
-  return make("bimatrix", {4, linear(m, VectorXd::Constant(4, -1))},
-              {VectorXd::Zero(4), VectorXd::Ones(4), vec({0.1, 0, 0.1, 0}), vec({0, 1, 0, 1})},
-              {vec({0.1, 0, 0.1, 0}), vec({0, 1.0 / 15, 0, 1.0 / 15}),
-               vec({1.0 / 90, 2.0 / 45, 1.0 / 30, 1.0 / 45})});
+  return make_linear("bimatrix", {4, linear(m, VectorXd::Constant(4, -1))},
+                     {VectorXd::Zero(4), VectorXd::Ones(4), vec({0.1, 0, 0.1, 0}), vec({0, 1, 0, 1})},
+                     {vec({0.1, 0, 0.1, 0}), vec({0, 1.0 / 15, 0, 1.0 / 15}),
+                      vec({1.0 / 90, 2.0 / 45, 1.0 / 30, 1.0 / 45})});
 }
 
 TestProblem ones2() {
-  TestProblem test =
-      make("ones2", {2, linear(MatrixXd::Ones(2, 2), VectorXd::Constant(2, -1))},
-           {vec({0, 0}), vec({1, 1}), vec({0.3, 0.2}), vec({100, 0}), vec({0.3, 0.7})}, {vec({0.5, 0.5})});
+  TestProblem test = make_linear("ones2", {2, linear(MatrixXd::Ones(2, 2), VectorXd::Constant(2, -1))},
+                                 {vec({0, 0}), vec({1, 1}), vec({0.3, 0.2}), vec({100, 0}), vec({0.3, 0.7})},
+                                 {vec({0.5, 0.5})});
   test.solutions_are_all = false;  // all of the segment z1 + z2 = 1
   return test;
 }
 
-TestProblem obstacle(Index side) {
+SparseLinearProblem sparse_obstacle(Index side) {
   const Index n = side * side;
   const double h = 1.0 / static_cast<double>(side + 1);
-  MatrixXd m = MatrixXd::Zero(n, n);
+  std::vector<Eigen::Triplet<double>> entries;
   VectorXd lower(n);
   for (Index row = 0; row < side; ++row) {
     for (Index column = 0; column < side; ++column) {
       const Index i = row * side + column;
-      m(i, i) = 4.0;
-      if (row > 0) m(i, i - side) = -1.0;
-      if (row + 1 < side) m(i, i + side) = -1.0;
-      if (column > 0) m(i, i - 1) = -1.0;
-      if (column + 1 < side) m(i, i + 1) = -1.0;
+      entries.emplace_back(i, i, 4.0);
+      if (row > 0) entries.emplace_back(i, i - side, -1.0);
+      if (row + 1 < side) entries.emplace_back(i, i + side, -1.0);
+      if (column > 0) entries.emplace_back(i, i - 1, -1.0);
+      if (column + 1 < side) entries.emplace_back(i, i + 1, -1.0);
       const double x = 3.2 * static_cast<double>(column + 1) * h;
       const double y = 3.2 * static_cast<double>(row + 1) * h;
       lower[i] = std::max(std::sin(x) * std::sin(y), 0.0) * std::max(std::sin(x) * std::sin(y), 0.0);
     }
   }
+  SparseLinearProblem::Matrix m(n, n);
+  m.setFromTriplets(entries.begin(), entries.end());
   const VectorXd upper = (lower.array() + 0.9).min(1.05);
   // A load that lifts the membrane to the lid near one corner and lets it sag onto the bump elsewhere.
   VectorXd q(n);
   for (Index i = 0; i < n; ++i) q[i] = h * h * (i % side < side / 2 ? -80.0 : 20.0);
-  return make("obstacle" + std::to_string(n), {lower, upper, linear(m, q)},
-              {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(n)}, {});
+  return {lower, upper, m, q};
+}
+
+TestProblem obstacle(Index side) {
+  const SparseLinearProblem sparse = sparse_obstacle(side);
+  const VectorXd& lower = sparse.lower();
+  const VectorXd& upper = sparse.upper();
+  return make_linear("obstacle" + std::to_string(side * side),
+                     {lower, upper, linear(MatrixXd(sparse.m()), sparse.q())},
+                     {lower, upper, 0.5 * (lower + upper), VectorXd::Zero(side * side)}, {});
 }
 
 TestProblem undetermined() {
@@ -225,4 +251,4 @@ std::vector<TestProblem> all_problems() {
           nash5(),   murty(8),  bimatrix(), ones2(),   obstacle(8), undetermined()};
 }
 
-}  // namespace touchstone::testing
+}  // namespace touchstone::problems
