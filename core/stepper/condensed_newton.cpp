@@ -13,6 +13,7 @@ namespace touchstone {
 namespace {
 
 constexpr int kFullSteps = 15;     ///< tried before anything else
+constexpr int kFinishSteps = 30;   ///< from near a solution
 constexpr int kRescueSteps = 60;   ///< of each rescue
 constexpr int kUndamped = 8;       ///< of those, before every other one is shortened
 constexpr double kDamping = 0.3;   ///< to this part
@@ -63,14 +64,7 @@ void make_room(Eigen::VectorXd& vector, Eigen::Index n) {
 
 template <int Dim>
 SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
-  problem_ = &problem;
-  make_room_for_problem();
-  for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
-  make_room(momentum_, problem.layout().joints());
-  // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
-  gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
-  evaluations_ = 0;
-  factorisations_ = 0;
+  bind(problem);
   const Eigen::Index n = problem.size();
   start_.head(n) = z.head(n);
   int iterations = 0;
@@ -100,6 +94,29 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
   }
   report.iterations = iterations;
   return report;
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::finish(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  bind(problem);
+  const Eigen::Index n = problem.size();
+  start_.head(n) = z.head(n);
+  SolveReport report = search({.limit = kFinishSteps}, z);
+  if (report.solved() || report.residual <= options_.acceptable) return report;
+  z.head(n) = start_.head(n);
+  return search({.line_search = true, .limit = options_.max_iterations}, z);
+}
+
+template <int Dim>
+void CondensedNewton<Dim>::bind(StepProblem<Dim>& problem) {
+  problem_ = &problem;
+  make_room_for_problem();
+  for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
+  make_room(momentum_, problem.layout().joints());
+  // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
+  gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
+  evaluations_ = 0;
+  factorisations_ = 0;
 }
 
 /// Everything that any step of this problem may need, so that the first one that needs it allocates nothing.

@@ -14,7 +14,16 @@ namespace {
 /// Unknowns of the largest problem that is handed to the full problem's solvers, whose matrices are dense.
 constexpr Eigen::Index kLargestDense = 3000;
 
+/// Unknowns of the largest problem whose central path is followed: a second or so a path.
+constexpr Eigen::Index kLargestPath = 600;
+/// Where central paths begin, in this order, and down to where they are followed: epsilon of SmoothedStep.
+constexpr std::array kPathStarts = {0.1, 0.03, 0.01, 0.3, 1.0};
+constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+
 constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
+
+/// Why a step is not solved all of whose central paths run off to infinity.
+constexpr std::string_view kJammed = "jammed: impulses grow without bound";
 
 SearchOptions search_options(const ImplicitOptions& options) {
   SearchOptions search;
@@ -60,7 +69,7 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
       candidates_(scene_),
       islands_(scene_),
       problem_(scene_),
-      condensed_({options.tolerance, options.max_iterations}),
+      condensed_({options.tolerance, options.max_iterations, ImplicitOptions::kAcceptable}),
       path_(path_options(options)),
       semismooth_(semismooth_options(options)),
       warm_start_(scene_) {
@@ -76,13 +85,15 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
 
 template <int Dim>
 StepReport ImplicitStepper<Dim>::step(double h) {
+  jammed_ = false;
   candidates_.select(state_, h);
   SolveReport report;
   do {
     collect_candidates();
     report = solve_islands(h);
     if (!report.solved()) {
-      return {StepStatus::not_converged, report.iterations, report.residual, to_string(report.status)};
+      return {StepStatus::not_converged, report.iterations, report.residual,
+              jammed_ ? kJammed : to_string(report.status)};
     }
   } while (candidates_.add_overlapping(end_));
   accept();
@@ -146,6 +157,15 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     if (report.solved() || problem_.size() > kLargestDense) return report;
     ++fallbacks_;
     iterations += report.iterations;
+    if (!island_.empty() && problem_.size() <= kLargestPath) {
+      const SolveReport path = follow_central_path();
+      iterations += path.iterations;
+      if (path.solved() || jammed_) {
+        report = path;
+        report.iterations = iterations;
+        return report;
+      }
+    }
   }
   const Solver first = options_.solver == Solver::path ? Solver::path : Solver::semismooth;
   const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
@@ -164,6 +184,38 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     if (report.solved()) break;
   }
   report.iterations = iterations;
+  return report;
+}
+
+/// Newton's method from points of central paths, ever farther down.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::follow_central_path() {
+  using State = typename CentralPath<Dim>::State;
+  SolveReport report;
+  int iterations = 0;
+  int unbounded = 0;
+  int stuck = 0;
+  for (const double start : kPathStarts) {
+    central_path_.begin(problem_, start);
+    State state = State::arrived;
+    for (const double end : kPathEnds) {
+      const int before = central_path_.factorisations();
+      state = central_path_.follow_to(end);
+      iterations += central_path_.factorisations() - before;
+      for (const bool closed : {true, false}) {
+        central_path_.estimate(z_, closed);
+        const SolveReport finish = condensed_.finish(problem_, z_);
+        iterations += finish.iterations;
+        if (finish.residual < report.residual) report = finish;
+        accept_rounding(report);
+        report.iterations = iterations;
+        if (report.solved()) return report;
+      }
+      if (state != State::arrived) break;
+    }
+    (state == State::unbounded ? unbounded : stuck) += 1;
+  }
+  jammed_ = unbounded > stuck;
   return report;
 }
 
