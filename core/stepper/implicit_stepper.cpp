@@ -111,7 +111,8 @@ SolveReport ImplicitStepper<Dim>::solve_islands(double h) {
   all.residual = 0;
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     select_island(islands_[i]);
-    const SolveReport report = solve_island();
+    SolveReport report = solve_island();
+    if (report.solved() && choose_frames()) report = solve_again();
     all.iterations += report.iterations;
     all.residual = std::max(all.residual, report.residual);
     if (!report.solved()) {
@@ -216,6 +217,41 @@ SolveReport ImplicitStepper<Dim>::follow_central_path() {
     (state == State::unbounded ? unbounded : stuck) += 1;
   }
   jammed_ = unbounded > stuck;
+  return report;
+}
+
+/// The direction that t is the projection of is chosen before a step is solved, for the normal expected then.
+/// Where friction is not the same in all directions and the normal came out so that the law's own direction
+/// serves, that one is to be it.
+/// @return  whether one changed
+template <int Dim>
+bool ImplicitStepper<Dim>::choose_frames() {
+  constexpr double kLeastSine = 0.2;  // well above that at which usable_reference() gives up the law's own
+  bool changed = false;
+  if constexpr (Dim == 3) {
+    for (std::size_t i = 0; i < island_contacts_.size(); ++i) {
+      const ContactLaw<Dim>& law = island_contacts_[i].law;
+      const Vector<Dim> direction = law.tangent.normalized();
+      if (law.e_t == law.e_o || problem_.prepared(i).reference == direction) continue;
+      const Vector<Dim> normal = problem_.impulse(i, z_).normal;
+      if (normal.cross(direction).norm() < kLeastSine) continue;
+      problem_.set_normal_estimate(i, normal);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+/// From the last solution, in other frames.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::solve_again() {
+  constexpr int kTries = 5;  // of frames that may have to be chosen once more
+  SolveReport report;
+  int tries = 0;
+  do {
+    report = condensed_.finish(problem_, z_);
+    accept_rounding(report);
+  } while (report.solved() && ++tries < kTries && choose_frames());
   return report;
 }
 

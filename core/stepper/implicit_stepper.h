@@ -71,6 +71,8 @@ class ImplicitStepper final : public Method<Dim> {
   void recall(std::size_t i, int depth);
   [[nodiscard]] SolveReport solve_island();
   [[nodiscard]] SolveReport follow_central_path();
+  [[nodiscard]] bool choose_frames();
+  [[nodiscard]] SolveReport solve_again();
   static void accept_rounding(SolveReport& report);
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
