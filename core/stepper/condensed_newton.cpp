@@ -12,14 +12,15 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;     ///< tried before anything else
-constexpr int kFinishSteps = 30;   ///< from near a solution
-constexpr int kRescueSteps = 60;   ///< of each rescue
-constexpr int kUndamped = 8;       ///< of those, before every other one is shortened
-constexpr double kDamping = 0.3;   ///< to this part
-constexpr double kAstray = 1e3;    ///< residual at which a search without a line search is given up
-constexpr double kRestore = 1e-3;  ///< residual of closest points above which they are found anew
-constexpr double kSpurious = 2.0;  ///< residual of points that satisfy their rows and are no closest points
+constexpr int kFullSteps = 15;      ///< tried before anything else
+constexpr int kFinishSteps = 30;    ///< from near a solution
+constexpr int kSettlingSteps = 20;  ///< for the least of what rounding leaves
+constexpr int kRescueSteps = 60;    ///< of each rescue
+constexpr int kUndamped = 8;        ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;    ///< to this part
+constexpr double kAstray = 1e3;     ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;   ///< residual of closest points above which they are found anew
+constexpr double kSpurious = 2.0;   ///< residual of points that satisfy their rows and are no closest points
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
@@ -105,6 +106,45 @@ SolveReport CondensedNewton<Dim>::finish(StepProblem<Dim>& problem, Eigen::Vecto
   if (report.solved() || report.residual <= options_.acceptable) return report;
   z.head(n) = start_.head(n);
   return search({.line_search = true, .limit = options_.max_iterations}, z);
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::settle(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  bind(problem);
+  strategy_ = {};
+  SolveReport report;
+  report.status = SolveStatus::solved;
+  const Eigen::Index n = problem.size();
+  evaluate(z);
+  double least = loaded_residual(z);
+  report.residual = residual_;
+  report.worst_row = worst_row_;
+  start_.head(n) = z.head(n);
+  while (least > options_.acceptable && report.iterations < kSettlingSteps && newton_step(z)) {
+    ++report.iterations;
+    z.head(n) += step_.head(n);
+    evaluate(z);
+    const double loaded = loaded_residual(z);
+    if (!(loaded < least && residual_ <= options_.acceptable)) continue;
+    least = loaded;
+    report.residual = residual_;
+    report.worst_row = worst_row_;
+    start_.head(n) = z.head(n);
+  }
+  z.head(n) = start_.head(n);
+  return report;
+}
+
+/// The residual at z with slip under a load counted as many times as the load is heavier than m V.
+template <int Dim>
+double CondensedNewton<Dim>::loaded_residual(const Eigen::VectorXd& z) const {
+  double largest = residual_;
+  for (std::size_t i = 0; i < problem_->contacts().size(); ++i) {
+    const StepBlock<Dim>& block = elements_[i].block;
+    const double slip = block.f.template segment<kFriction>(block.at.friction).cwiseAbs().maxCoeff();
+    largest = std::max(largest, z[problem_->layout().contact(i).normal] * slip);
+  }
+  return largest;
 }
 
 template <int Dim>

@@ -22,7 +22,11 @@ constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
 
 constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
 
-/// Why a step is not solved all of whose central paths run off to infinity.
+/// Residual that is accepted of a step that nothing brings below kAcceptable: a tenth of what answers are
+/// certified at.
+constexpr double kLastAcceptable = 1e-11;
+
+/// Why a step is not solved whose central paths run off to infinity.
 constexpr std::string_view kJammed = "jammed: impulses grow without bound";
 
 SearchOptions search_options(const ImplicitOptions& options) {
@@ -112,6 +116,11 @@ SolveReport ImplicitStepper<Dim>::solve_islands(double h) {
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     select_island(islands_[i]);
     SolveReport report = solve_island();
+    if (report.solved() && report.residual > options_.tolerance && !island_.empty()) {
+      const int iterations = report.iterations;
+      report = condensed_.settle(problem_, z_);
+      report.iterations += iterations;
+    }
     if (report.solved() && choose_frames()) report = solve_again();
     all.iterations += report.iterations;
     all.residual = std::max(all.residual, report.residual);
@@ -151,6 +160,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
   SolveReport report;
   int iterations = 0;
+  bool pivots = true;  // path-following Newton may pivot for minutes: not after central paths
   if (options_.solver == Solver::condensed) {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
@@ -161,6 +171,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     if (!island_.empty() && problem_.size() <= kLargestPath) {
       const SolveReport path = follow_central_path();
       iterations += path.iterations;
+      pivots = false;
       if (path.solved() || jammed_) {
         report = path;
         report.iterations = iterations;
@@ -182,42 +193,56 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
       start_cold(find);
       attempt(solver);
     }
-    if (report.solved()) break;
+    if (report.solved() || !pivots) break;
   }
   report.iterations = iterations;
   return report;
 }
 
-/// Newton's method from points of central paths, ever farther down.
+/// Newton's method from points of central paths, ever farther down, and at last, from the end of each, the
+/// full problem's.
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::follow_central_path() {
   using State = typename CentralPath<Dim>::State;
-  SolveReport report;
+  SolveReport best;
   int iterations = 0;
-  int unbounded = 0;
-  int stuck = 0;
-  for (const double start : kPathStarts) {
+  bool unbounded = false;
+  bool arrived = false;
+  const auto finish = [&](auto&& solver) {
+    const SolveReport report = solver();
+    iterations += report.iterations;
+    if (report.residual < best.residual) {
+      best = report;
+      best_z_ = z_.head(problem_.size());
+    }
+    accept_rounding(best);
+    return best.solved();
+  };
+  const auto walk = [&](double start) {
     central_path_.begin(problem_, start);
     State state = State::arrived;
     for (const double end : kPathEnds) {
+      if (state != State::arrived) break;
       const int before = central_path_.factorisations();
       state = central_path_.follow_to(end);
       iterations += central_path_.factorisations() - before;
       for (const bool closed : {true, false}) {
         central_path_.estimate(z_, closed);
-        const SolveReport finish = condensed_.finish(problem_, z_);
-        iterations += finish.iterations;
-        if (finish.residual < report.residual) report = finish;
-        accept_rounding(report);
-        report.iterations = iterations;
-        if (report.solved()) return report;
+        if (finish([&] { return condensed_.finish(problem_, z_); })) return true;
       }
-      if (state != State::arrived) break;
     }
-    (state == State::unbounded ? unbounded : stuck) += 1;
-  }
-  jammed_ = unbounded > stuck;
-  return report;
+    unbounded = unbounded || state == State::unbounded;
+    arrived = arrived || state == State::arrived;
+    if (state == State::unbounded) return false;
+    central_path_.estimate(z_, false);
+    return finish([&] { return run_solver(ImplicitOptions::Solver::semismooth); });
+  };
+  const bool solved = std::any_of(kPathStarts.begin(), kPathStarts.end(), walk);
+  z_.head(problem_.size()) = best_z_;
+  if (!solved && best.residual <= kLastAcceptable) best.status = SolveStatus::solved;
+  jammed_ = !best.solved() && unbounded && !arrived;
+  best.iterations = iterations;
+  return best;
 }
 
 /// The direction that t is the projection of is chosen before a step is solved, for the normal expected then.

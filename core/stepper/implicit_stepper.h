@@ -87,7 +87,7 @@ class ImplicitStepper final : public Method<Dim> {
   StepProblem<Dim> problem_;
   CondensedNewton<Dim> condensed_;
   CentralPath<Dim> central_path_;
-  bool jammed_ = false;  ///< most central paths of the island that was given up ran off to infinity
+  bool jammed_ = false;  ///< central paths of the island that was given up ran off to infinity
   int fallbacks_ = 0;
   PathNewton path_;
   SemismoothNewton semismooth_;
@@ -96,6 +96,7 @@ class ImplicitStepper final : public Method<Dim> {
   std::vector<std::size_t> island_;  ///< contacts of the current island, numbers in active_contacts_
   std::vector<ContactPair<Dim>> island_contacts_;
   Eigen::VectorXd z_;        ///< of the current island, in its first entries
+  Eigen::VectorXd best_z_;   ///< of the searches from central paths
   Eigen::VectorXd exact_z_;  ///< of just its length, for the full problem's solvers
   std::vector<ContactImpulse<Dim>> contacts_, solved_contacts_;
   std::vector<JointImpulse<Dim>> joints_, solved_joints_;
