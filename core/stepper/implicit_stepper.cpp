@@ -22,6 +22,9 @@ constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
 
 constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
 
+/// Residual of points that satisfy their rows and are no closest points: N_1 is n where it should be -n.
+constexpr double kSpurious = 2.0;
+
 /// Residual that is accepted of a step that nothing brings below kAcceptable: a tenth of what answers are
 /// certified at.
 constexpr double kLastAcceptable = 1e-11;
@@ -295,7 +298,9 @@ SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
   accept_rounding(report);
   for (std::size_t i = 0; i < island_.size() && report.solved(); ++i) {
     problem_.evaluate_state(i, z_);
-    if (problem_.is_spurious(i)) report.status = SolveStatus::local_minimum;
+    if (!problem_.is_spurious(i)) continue;
+    report.status = SolveStatus::local_minimum;
+    report.residual = kSpurious;
   }
   return report;
 }
