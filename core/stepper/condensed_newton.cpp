@@ -112,39 +112,26 @@ template <int Dim>
 SolveReport CondensedNewton<Dim>::settle(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
   bind(problem);
   strategy_ = {};
+  for (std::size_t i = 0; i < problem.contacts().size(); ++i)
+    problem.expect_load(i, z[problem.layout().contact(i).normal]);
   SolveReport report;
   report.status = SolveStatus::solved;
   const Eigen::Index n = problem.size();
   evaluate(z);
-  double least = loaded_residual(z);
-  report.residual = residual_;
-  report.worst_row = worst_row_;
-  start_.head(n) = z.head(n);
-  while (least > options_.acceptable && report.iterations < kSettlingSteps && newton_step(z)) {
-    ++report.iterations;
-    z.head(n) += step_.head(n);
-    evaluate(z);
-    const double loaded = loaded_residual(z);
-    if (!(loaded < least && residual_ <= options_.acceptable)) continue;
-    least = loaded;
+  const auto keep = [&] {
     report.residual = residual_;
     report.worst_row = worst_row_;
     start_.head(n) = z.head(n);
+  };
+  keep();
+  while (report.residual > options_.acceptable && report.iterations < kSettlingSteps && newton_step(z)) {
+    ++report.iterations;
+    z.head(n) += step_.head(n);
+    evaluate(z);
+    if (residual_ < report.residual) keep();
   }
   z.head(n) = start_.head(n);
   return report;
-}
-
-/// The residual at z with slip under a load counted as many times as the load is heavier than m V.
-template <int Dim>
-double CondensedNewton<Dim>::loaded_residual(const Eigen::VectorXd& z) const {
-  double largest = residual_;
-  for (std::size_t i = 0; i < problem_->contacts().size(); ++i) {
-    const StepBlock<Dim>& block = elements_[i].block;
-    const double slip = block.f.template segment<kFriction>(block.at.friction).cwiseAbs().maxCoeff();
-    largest = std::max(largest, z[problem_->layout().contact(i).normal] * slip);
-  }
-  return largest;
 }
 
 template <int Dim>

@@ -41,9 +41,9 @@ class CondensedNewton {
   [[nodiscard]] SolveReport solve(StepProblem<Dim>& problem, Eigen::VectorXd& z);
   /// From a start near a solution: searches from there alone.
   [[nodiscard]] SolveReport finish(StepProblem<Dim>& problem, Eigen::VectorXd& z);
-  /// From a solution as good as rounding lets a search end with, to one that also holds under load: Eq. 5
-  /// multiplies slip by p_n, which in a body that others clamp may be 1e4 m V. Newton steps go around among
-  /// solutions of one rounding error; the best of them is taken. Nothing is done where loads are usual.
+  /// From a solution as good as rounding lets a search end with, to one that also holds under load (see
+  /// StepProblem::expect_load): Newton steps go around among solutions of one rounding error, and the best of
+  /// them is taken. Nothing is done where loads are usual.
   [[nodiscard]] SolveReport settle(StepProblem<Dim>& problem, Eigen::VectorXd& z);
 
  private:
@@ -85,7 +85,6 @@ class CondensedNewton {
   [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
   void evaluate(Eigen::VectorXd& z);
   void judge(Element& element, std::size_t i, Eigen::VectorXd& z);
-  [[nodiscard]] double loaded_residual(const Eigen::VectorXd& z) const;
   void account(double value, Eigen::Index row);
   void choose_rows(Element& element, std::size_t i, const Eigen::VectorXd& z);
   void set_rows(Element& element, std::size_t i, const Eigen::VectorXd& z, bool derivatives);
