@@ -25,6 +25,7 @@ constexpr double kContraction = 0.5;  ///< of the corrections, below which a ste
 constexpr double kKinkLength = 1e-3;
 constexpr double kKinkCorrection = 10;  ///< the first correction of such a step, over its length
 constexpr double kClose = 1e-3;         ///< last correction, over the step
+constexpr double kNoise = 1e-10;        ///< of a correction, by rounding
 constexpr double kCloseRows = 1e-2;     ///< residual, over epsilon
 
 }  // namespace
@@ -43,9 +44,9 @@ void CentralPath<Dim>::begin(StepProblem<Dim>& problem, double epsilon) {
 
 template <int Dim>
 auto CentralPath<Dim>::follow_to(double epsilon) -> State {
-  constexpr double kRounding = 1e-9;
+  constexpr double kNear = 1e-3;  // a part of epsilon that makes no difference
   const double end = system_.parameter(epsilon);
-  while (tau_ > end + kRounding) {
+  while (tau_ > end + kNear) {
     if (largest_impulse() > kUnbounded) return State::unbounded;
     if (!advance(end)) return largest_impulse() > kLarge ? State::unbounded : State::stuck;
   }
@@ -68,7 +69,9 @@ bool CentralPath<Dim>::advance(double end) {
     const double factor = corrections_ <= kFewCorrections    ? kLonger
                           : corrections_ >= kManyCorrections ? kSlower
                                                              : 1.0;
-    length_ = std::min(factor * length, std::max(1.0, 0.5 * z_.cwiseQuotient(system_.unit()).norm()));
+    // One that ended where it was told to says nothing of the next one's length.
+    const double next = std::max(factor * length, length < length_ ? length_ : 0.0);
+    length_ = std::min(next, std::max(1.0, 0.5 * z_.cwiseQuotient(system_.unit()).norm()));
     return true;
   }
   return false;
@@ -123,7 +126,7 @@ bool CentralPath<Dim>::try_step(double length) {
     before = size;
     trial_ += system_.unit().cwiseProduct(solution_.head(n));
     trial_tau_ += solution_[n];
-    if (close && size < kClose * std::min(1.0, length)) return true;
+    if (close && size < std::max(kClose * std::min(1.0, length), kNoise)) return true;
   }
   return false;
 }

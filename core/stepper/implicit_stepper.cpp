@@ -29,6 +29,10 @@ constexpr double kSpurious = 2.0;
 /// certified at.
 constexpr double kLastAcceptable = 1e-11;
 
+/// Unknowns of the largest problem that path-following Newton is left with after central paths: above, it may
+/// pivot for minutes.
+constexpr Eigen::Index kLargestPivoted = 100;
+
 /// Why a step is not solved whose central paths run off to infinity.
 constexpr std::string_view kJammed = "jammed: impulses grow without bound";
 
@@ -163,7 +167,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
   SolveReport report;
   int iterations = 0;
-  bool pivots = true;  // path-following Newton may pivot for minutes: not after central paths
+  bool pivots = true;
   if (options_.solver == Solver::condensed) {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
@@ -174,7 +178,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     if (!island_.empty() && problem_.size() <= kLargestPath) {
       const SolveReport path = follow_central_path();
       iterations += path.iterations;
-      pivots = false;
+      pivots = problem_.size() <= kLargestPivoted;
       if (path.solved() || jammed_) {
         report = path;
         report.iterations = iterations;
