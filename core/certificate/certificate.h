@@ -15,6 +15,11 @@
 /// and distances are computed here in another way.
 namespace touchstone::certificate {
 
+/// The answer is told in rounded world coordinates and velocities, which no step can choose finer than their
+/// spacing: 4e-15 m at 25 m. Where a condition magnifies that (a normal turns by curvature times the point's
+/// spacing, which is 3e-10 on the rounded apex of a cone; Eq. 5 multiplies slip by a load that may be 1e4
+/// m V) its residual is what is left beyond the rounding of the answer's own numbers.
+///
 /// What a solution has to fulfil, in the order in which a report names equals. Residuals are without unit:
 /// lengths over L, velocities over V, impulses over the (lighter) moving body's mass times V, moments over
 /// its radius of gyration too (Units).

@@ -35,6 +35,21 @@ double cone_distance(const std::vector<Vector<Dim>>& gradients, const Vector<Dim
   return best;
 }
 
+constexpr double kSpacing = std::numeric_limits<double>::epsilon();
+
+/// By how much a point of a body, relative to its centre, is uncertain because both are told in rounded world
+/// coordinates: half a spacing of the numbers for each [m].
+template <int Dim>
+double arm_rounding(const Vector<Dim>& point, const Vector<Dim>& center) {
+  return std::sqrt(Dim) * kSpacing *
+         std::max(point.template lpNorm<Eigen::Infinity>(), center.template lpNorm<Eigen::Infinity>());
+}
+
+/// What is left of a residual beyond what rounding of the answer's own numbers explains; NaN stays.
+double beyond(double residual, double rounding) {
+  return residual > rounding ? residual - rounding : residual * 0;
+}
+
 }  // namespace
 
 /// Unit of impulse at a contact: the lighter moving body's mass times V.
@@ -104,18 +119,29 @@ double Checker<Dim>::normal_residual(int body, const BodyState<Dim>& state, cons
   const ConvexSurface<Dim>& surface = *surfaces_[static_cast<std::size_t>(body)];
   const Vector<Dim> x = state.pose.to_body(point);
   const Vector<Dim> normal = state.pose.rotation.matrix().transpose() * outward;
-  if (surface.count() == 1) return (surface.jet(0, x).gradient.normalized() - normal).norm();
+  const double uncertain = arm_rounding<Dim>(point, state.pose.position);
+  const auto turn = [&](const SurfaceJet<Dim>& jet) {
+    return jet.hessian.norm() / jet.gradient.norm() * uncertain;
+  };
+  if (surface.count() == 1) {
+    const SurfaceJet<Dim> jet = surface.jet(0, x);
+    return beyond((jet.gradient.normalized() - normal).norm(), turn(jet));
+  }
   double best = std::numeric_limits<double>::infinity();
   std::vector<Vector<Dim>> gradients;
   double top = surface.value(0, x);
   for (int k = 1; k < surface.count(); ++k) top = std::max(top, surface.value(k, x));
   for (double band = kFirstBand; band <= kLastBand && band < best; band *= 10) {
     gradients.clear();
+    double largest_turn = 0;
     for (int k = 0; k < surface.count() && gradients.size() < kMost; ++k) {
-      if (surface.value(k, x) >= top - band * units_.length) gradients.push_back(surface.jet(k, x).gradient);
+      if (!(surface.value(k, x) >= top - band * units_.length)) continue;
+      const SurfaceJet<Dim> jet = surface.jet(k, x);
+      gradients.push_back(jet.gradient);
+      largest_turn = std::max(largest_turn, turn(jet));
     }
     const double inexact = band > kFirstBand ? band : 0.0;
-    best = std::min(best, std::max(inexact, cone_distance(gradients, normal)));
+    best = std::min(best, std::max(inexact, beyond(cone_distance(gradients, normal), largest_turn)));
   }
   return best;
 }
@@ -132,15 +158,18 @@ void Checker<Dim>::check_multipliers(std::size_t i, const Step<Dim>& step, Repor
     const Pose<Dim>& pose = step.after[body].pose;
     const Vector<Dim> x = pose.to_body(side == 0 ? c.point_a : c.point_b);
     Vector<Dim> normal = Vector<Dim>::Zero();
+    double turn = 0;
     for (int k = 0; k < surfaces_[body]->count(); ++k) {
       const SurfaceJet<Dim> jet = surfaces_[body]->jet(k, x);
       const double multiplier = l.at(static_cast<std::size_t>(k));
       normal += multiplier * jet.gradient;
+      turn += std::abs(multiplier) * jet.hessian.norm();
       const double missed = std::abs(std::min(multiplier, -jet.value / units_.length));
       report.note(Condition::multipliers, missed, static_cast<int>(i));
     }
     const Vector<Dim> outward = side == 0 ? Vector<Dim>(-c.normal) : c.normal;
-    report.note(Condition::multipliers, (pose.rotation.matrix() * normal - outward).norm(),
+    const double uncertain = turn * arm_rounding<Dim>(side == 0 ? c.point_a : c.point_b, pose.position);
+    report.note(Condition::multipliers, beyond((pose.rotation.matrix() * normal - outward).norm(), uncertain),
                 static_cast<int>(i));
   }
 }
@@ -184,7 +213,16 @@ void Checker<Dim>::check_friction(std::size_t i, const ContactImpulse<Dim>& c, S
   const double limit = law.mu * c.normal_impulse / unit;
   const double sigma = w.norm();
   report.note(Condition::friction_cone, y.norm() - std::max(limit, 0.0), subject);
-  report.note(Condition::dissipation, (limit * w + sigma * y).cwiseAbs().maxCoeff(), subject);
+  double uncertain = 0;  // of v
+  for (const auto& [body, point] : {std::tuple(&a, c.point_a), std::tuple(&b, c.point_b)}) {
+    const double speed = body->velocity.template head<Dim>().norm();
+    const double turning = omega(*body).norm();
+    uncertain += turning * arm_rounding<Dim>(point, body->pose.position) +
+                 kSpacing * (speed + turning * (point - body->pose.position).norm());
+  }
+  const double by_slip = (std::abs(limit) + y.norm()) * e.maxCoeff() * uncertain / units_.velocity;
+  report.note(Condition::dissipation, beyond((limit * w + sigma * y).cwiseAbs().maxCoeff(), by_slip),
+              subject);
   // Not the difference of squares as printed, which has the same zeros but hides slip under small loads.
   report.note(Condition::slip_outside, std::min(sigma, limit - y.norm()), subject);
 }

@@ -12,13 +12,15 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;     ///< tried before anything else
-constexpr int kRescueSteps = 60;   ///< of each rescue
-constexpr int kUndamped = 8;       ///< of those, before every other one is shortened
-constexpr double kDamping = 0.3;   ///< to this part
-constexpr double kAstray = 1e3;    ///< residual at which a search without a line search is given up
-constexpr double kRestore = 1e-3;  ///< residual of closest points above which they are found anew
-constexpr double kSpurious = 2.0;  ///< residual of points that satisfy their rows and are no closest points
+constexpr int kFullSteps = 15;      ///< tried before anything else
+constexpr int kFinishSteps = 30;    ///< from near a solution
+constexpr int kSettlingSteps = 20;  ///< for the least of what rounding leaves
+constexpr int kRescueSteps = 60;    ///< of each rescue
+constexpr int kUndamped = 8;        ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;    ///< to this part
+constexpr double kAstray = 1e3;     ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;   ///< residual of closest points above which they are found anew
+constexpr double kSpurious = 2.0;   ///< residual of points that satisfy their rows and are no closest points
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
@@ -63,14 +65,7 @@ void make_room(Eigen::VectorXd& vector, Eigen::Index n) {
 
 template <int Dim>
 SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
-  problem_ = &problem;
-  make_room_for_problem();
-  for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
-  make_room(momentum_, problem.layout().joints());
-  // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
-  gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
-  evaluations_ = 0;
-  factorisations_ = 0;
+  bind(problem);
   const Eigen::Index n = problem.size();
   start_.head(n) = z.head(n);
   int iterations = 0;
@@ -100,6 +95,55 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
   }
   report.iterations = iterations;
   return report;
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::finish(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  bind(problem);
+  const Eigen::Index n = problem.size();
+  start_.head(n) = z.head(n);
+  SolveReport report = search({.limit = kFinishSteps}, z);
+  if (report.solved() || report.residual <= options_.acceptable) return report;
+  z.head(n) = start_.head(n);
+  return search({.line_search = true, .limit = options_.max_iterations}, z);
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::settle(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  bind(problem);
+  strategy_ = {};
+  for (std::size_t i = 0; i < problem.contacts().size(); ++i)
+    problem.expect_load(i, z[problem.layout().contact(i).normal]);
+  SolveReport report;
+  report.status = SolveStatus::solved;
+  const Eigen::Index n = problem.size();
+  evaluate(z);
+  const auto keep = [&] {
+    report.residual = residual_;
+    report.worst_row = worst_row_;
+    start_.head(n) = z.head(n);
+  };
+  keep();
+  while (report.residual > options_.acceptable && report.iterations < kSettlingSteps && newton_step(z)) {
+    ++report.iterations;
+    z.head(n) += step_.head(n);
+    evaluate(z);
+    if (residual_ < report.residual) keep();
+  }
+  z.head(n) = start_.head(n);
+  return report;
+}
+
+template <int Dim>
+void CondensedNewton<Dim>::bind(StepProblem<Dim>& problem) {
+  problem_ = &problem;
+  make_room_for_problem();
+  for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
+  make_room(momentum_, problem.layout().joints());
+  // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
+  gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
+  evaluations_ = 0;
+  factorisations_ = 0;
 }
 
 /// Everything that any step of this problem may need, so that the first one that needs it allocates nothing.

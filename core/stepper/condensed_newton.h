@@ -14,6 +14,8 @@ struct CondensedOptions {
   /// Solved if the natural residual of the whole step problem is at most this; > 0, in its units.
   double tolerance = 1e-13;
   int max_iterations = 100;  ///< Newton steps; >= 1
+  /// What rounding leaves is solved too, once a search has got no further; >= 0.
+  double acceptable = 0.0;
 };
 
 /// A semismooth Newton method for StepProblem that eliminates before it solves: sigma = |w|, then in each
@@ -37,6 +39,12 @@ class CondensedNewton {
   /// @param z  start on entry, at least problem.size() entries, in the projection form of friction; the
   ///           solution if the report says so, else wherever the search ended
   [[nodiscard]] SolveReport solve(StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  /// From a start near a solution: searches from there alone.
+  [[nodiscard]] SolveReport finish(StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  /// From a solution as good as rounding lets a search end with, to one that also holds under load (see
+  /// StepProblem::expect_load): Newton steps go around among solutions of one rounding error, and the best of
+  /// them is taken. Nothing is done where loads are usual.
+  [[nodiscard]] SolveReport settle(StepProblem<Dim>& problem, Eigen::VectorXd& z);
 
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
@@ -72,6 +80,7 @@ class CondensedNewton {
     Eigen::VectorXd offset;                ///< of the eliminated unknowns, for no motion of the kept ones
   };
 
+  void bind(StepProblem<Dim>& problem);
   void make_room_for_problem();
   [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
   void evaluate(Eigen::VectorXd& z);

@@ -14,7 +14,27 @@ namespace {
 /// Unknowns of the largest problem that is handed to the full problem's solvers, whose matrices are dense.
 constexpr Eigen::Index kLargestDense = 3000;
 
+/// Unknowns of the largest problem whose central path is followed: a second or so a path.
+constexpr Eigen::Index kLargestPath = 600;
+/// Where central paths begin, in this order, and down to where they are followed: epsilon of SmoothedStep.
+constexpr std::array kPathStarts = {0.1, 0.03, 0.01, 0.3, 1.0};
+constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+
 constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
+
+/// Residual of points that satisfy their rows and are no closest points: N_1 is n where it should be -n.
+constexpr double kSpurious = 2.0;
+
+/// Residual that is accepted of a step that nothing brings below kAcceptable: a tenth of what answers are
+/// certified at.
+constexpr double kLastAcceptable = 1e-11;
+
+/// Unknowns of the largest problem that path-following Newton is left with after central paths: above, it may
+/// pivot for minutes.
+constexpr Eigen::Index kLargestPivoted = 100;
+
+/// Why a step is not solved whose central paths run off to infinity.
+constexpr std::string_view kJammed = "jammed: impulses grow without bound";
 
 SearchOptions search_options(const ImplicitOptions& options) {
   SearchOptions search;
@@ -60,7 +80,7 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
       candidates_(scene_),
       islands_(scene_),
       problem_(scene_),
-      condensed_({options.tolerance, options.max_iterations}),
+      condensed_({options.tolerance, options.max_iterations, ImplicitOptions::kAcceptable}),
       path_(path_options(options)),
       semismooth_(semismooth_options(options)),
       warm_start_(scene_) {
@@ -76,13 +96,15 @@ ImplicitStepper<Dim>::ImplicitStepper(const Scene<Dim>& scene, const ImplicitOpt
 
 template <int Dim>
 StepReport ImplicitStepper<Dim>::step(double h) {
+  jammed_ = false;
   candidates_.select(state_, h);
   SolveReport report;
   do {
     collect_candidates();
     report = solve_islands(h);
     if (!report.solved()) {
-      return {StepStatus::not_converged, report.iterations, report.residual, to_string(report.status)};
+      return {StepStatus::not_converged, report.iterations, report.residual,
+              jammed_ ? kJammed : to_string(report.status)};
     }
   } while (candidates_.add_overlapping(end_));
   accept();
@@ -100,7 +122,13 @@ SolveReport ImplicitStepper<Dim>::solve_islands(double h) {
   all.residual = 0;
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     select_island(islands_[i]);
-    const SolveReport report = solve_island();
+    SolveReport report = solve_island();
+    if (report.solved() && report.residual > options_.tolerance && !island_.empty()) {
+      const int iterations = report.iterations;
+      report = condensed_.settle(problem_, z_);
+      report.iterations += iterations;
+    }
+    if (report.solved() && choose_frames()) report = solve_again();
     all.iterations += report.iterations;
     all.residual = std::max(all.residual, report.residual);
     if (!report.solved()) {
@@ -139,6 +167,7 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
   using Solver = ImplicitOptions::Solver;
   SolveReport report;
   int iterations = 0;
+  bool pivots = true;
   if (options_.solver == Solver::condensed) {
     start_from_memory();
     report = condensed_.solve(problem_, z_);
@@ -146,6 +175,16 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
     if (report.solved() || problem_.size() > kLargestDense) return report;
     ++fallbacks_;
     iterations += report.iterations;
+    if (!island_.empty() && problem_.size() <= kLargestPath) {
+      const SolveReport path = follow_central_path();
+      iterations += path.iterations;
+      pivots = problem_.size() <= kLargestPivoted;
+      if (path.solved() || jammed_) {
+        report = path;
+        report.iterations = iterations;
+        return report;
+      }
+    }
   }
   const Solver first = options_.solver == Solver::path ? Solver::path : Solver::semismooth;
   const Solver other = first == Solver::path ? Solver::semismooth : Solver::path;
@@ -161,9 +200,91 @@ SolveReport ImplicitStepper<Dim>::solve_island() {
       start_cold(find);
       attempt(solver);
     }
-    if (report.solved()) break;
+    if (report.solved() || !pivots) break;
   }
   report.iterations = iterations;
+  return report;
+}
+
+/// Newton's method from points of central paths, ever farther down, and at last, from the end of each, the
+/// full problem's.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::follow_central_path() {
+  using State = typename CentralPath<Dim>::State;
+  SolveReport best;
+  int iterations = 0;
+  bool unbounded = false;
+  bool arrived = false;
+  const auto finish = [&](auto&& solver) {
+    const SolveReport report = solver();
+    iterations += report.iterations;
+    if (report.residual < best.residual) {
+      best = report;
+      best_z_ = z_.head(problem_.size());
+    }
+    accept_rounding(best);
+    return best.solved();
+  };
+  const auto walk = [&](double start) {
+    central_path_.begin(problem_, start);
+    State state = State::arrived;
+    for (const double end : kPathEnds) {
+      if (state != State::arrived) break;
+      const int before = central_path_.factorisations();
+      state = central_path_.follow_to(end);
+      iterations += central_path_.factorisations() - before;
+      for (const bool closed : {true, false}) {
+        central_path_.estimate(z_, closed);
+        if (finish([&] { return condensed_.finish(problem_, z_); })) return true;
+      }
+    }
+    unbounded = unbounded || state == State::unbounded;
+    arrived = arrived || state == State::arrived;
+    if (state == State::unbounded) return false;
+    central_path_.estimate(z_, false);
+    return finish([&] { return run_solver(ImplicitOptions::Solver::semismooth); });
+  };
+  const bool solved = std::any_of(kPathStarts.begin(), kPathStarts.end(), walk);
+  z_.head(problem_.size()) = best_z_;
+  for (std::size_t i = 0; i < island_.size(); ++i) problem_.evaluate_state(i, z_);
+  if (!solved && best.residual <= kLastAcceptable) best.status = SolveStatus::solved;
+  jammed_ = !best.solved() && unbounded && !arrived;
+  best.iterations = iterations;
+  return best;
+}
+
+/// The direction that t is the projection of is chosen before a step is solved, for the normal expected then.
+/// Where friction is not the same in all directions and the normal came out so that the law's own direction
+/// serves, that one is to be it.
+/// @return  whether one changed
+template <int Dim>
+bool ImplicitStepper<Dim>::choose_frames() {
+  constexpr double kLeastSine = 0.2;  // well above that at which usable_reference() gives up the law's own
+  bool changed = false;
+  if constexpr (Dim == 3) {
+    for (std::size_t i = 0; i < island_contacts_.size(); ++i) {
+      const ContactLaw<Dim>& law = island_contacts_[i].law;
+      const Vector<Dim> direction = law.tangent.normalized();
+      if (law.e_t == law.e_o || problem_.prepared(i).reference == direction) continue;
+      const Vector<Dim> normal = problem_.impulse(i).normal;
+      if (normal.cross(direction).norm() < kLeastSine) continue;
+      problem_.set_normal_estimate(i, normal);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+/// From the last solution, in other frames.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::solve_again() {
+  constexpr int kTries = 5;  // of frames that may have to be chosen once more
+  SolveReport report;
+  int tries = 0;
+  do {
+    report = condensed_.finish(problem_, z_);
+    accept_rounding(report);
+  } while (report.solved() && ++tries < kTries && choose_frames());
   return report;
 }
 
@@ -182,7 +303,9 @@ SolveReport ImplicitStepper<Dim>::run_solver(ImplicitOptions::Solver solver) {
   accept_rounding(report);
   for (std::size_t i = 0; i < island_.size() && report.solved(); ++i) {
     problem_.evaluate_state(i, z_);
-    if (problem_.is_spurious(i)) report.status = SolveStatus::local_minimum;
+    if (!problem_.is_spurious(i)) continue;
+    report.status = SolveStatus::local_minimum;
+    report.residual = kSpurious;
   }
   return report;
 }

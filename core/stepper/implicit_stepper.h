@@ -4,6 +4,7 @@
 
 #include "core/complementarity/path_newton.h"
 #include "core/complementarity/semismooth_newton.h"
+#include "core/stepper/central_path.h"
 #include "core/stepper/condensed_newton.h"
 #include "core/stepper/contact_candidates.h"
 #include "core/stepper/islands.h"
@@ -69,6 +70,9 @@ class ImplicitStepper final : public Method<Dim> {
   void start_cold(FindClosest<Dim> find);
   void recall(std::size_t i, int depth);
   [[nodiscard]] SolveReport solve_island();
+  [[nodiscard]] SolveReport follow_central_path();
+  [[nodiscard]] bool choose_frames();
+  [[nodiscard]] SolveReport solve_again();
   static void accept_rounding(SolveReport& report);
   [[nodiscard]] SolveReport run_solver(ImplicitOptions::Solver solver);
   void keep_solution();
@@ -82,6 +86,8 @@ class ImplicitStepper final : public Method<Dim> {
   Islands islands_;
   StepProblem<Dim> problem_;
   CondensedNewton<Dim> condensed_;
+  CentralPath<Dim> central_path_;
+  bool jammed_ = false;  ///< central paths of the island that was given up ran off to infinity
   int fallbacks_ = 0;
   PathNewton path_;
   SemismoothNewton semismooth_;
@@ -90,6 +96,7 @@ class ImplicitStepper final : public Method<Dim> {
   std::vector<std::size_t> island_;  ///< contacts of the current island, numbers in active_contacts_
   std::vector<ContactPair<Dim>> island_contacts_;
   Eigen::VectorXd z_;        ///< of the current island, in its first entries
+  Eigen::VectorXd best_z_;   ///< of the searches from central paths
   Eigen::VectorXd exact_z_;  ///< of just its length, for the full problem's solvers
   std::vector<ContactImpulse<Dim>> contacts_, solved_contacts_;
   std::vector<JointImpulse<Dim>> joints_, solved_joints_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -139,6 +140,13 @@ class StepProblem final : public MixedComplementarityProblem {
   /// another where that one is too close to the normal to define t.
   void set_normal_estimate(std::size_t i, const Vector<Dim>& normal) {
     prepared_[i].reference = usable_reference(normal, contacts_[i].law.tangent);
+  }
+  /// Weighs slip in the friction rows of contact i by its load p > 1, in m V, until the next select(). The
+  /// rows are y - proj(y - rho w): with a y of 1e3 they round as coarsely as w may be wrong, and Eq. 5 then
+  /// multiplies that error by p.
+  void expect_load(std::size_t i, double p) {
+    const double largest = prepared_[i].semi_axes.template head<Dim - 1>().maxCoeff();
+    prepared_[i].rho = std::max(1.0, p) / (3 * largest * largest);
   }
   /// Finds the closest points of contact i from cold, at the poses that nu' in z leads to, and writes its
   /// points, multipliers and reference direction.
