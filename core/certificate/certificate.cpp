@@ -33,11 +33,13 @@ std::string_view to_string(Condition condition) {
   return kNames[static_cast<std::size_t>(condition)];
 }
 
-void Report::note(Condition c, double residual, int subject, int other) {
+// Comparisons are written so that a NaN wins, and stays.
+void Report::note(Condition c, const Missed& missed, int subject, int other) {
+  if (!std::isnan(beyond_rounding) && !(missed.beyond() <= beyond_rounding))
+    beyond_rounding = missed.beyond();
   Worst& w = worst[static_cast<std::size_t>(c)];
-  // Written so that a NaN wins, and stays.
-  if (std::isnan(w.residual) || residual <= w.residual) return;
-  w = {residual, subject, other};
+  if (std::isnan(w.residual) || missed.residual <= w.residual) return;
+  w = {missed.residual, subject, other};
 }
 
 Condition Report::worst_condition() const {

@@ -15,11 +15,6 @@
 /// and distances are computed here in another way.
 namespace touchstone::certificate {
 
-/// The answer is told in rounded world coordinates and velocities, which no step can choose finer than their
-/// spacing: 4e-15 m at 25 m. Where a condition magnifies that (a normal turns by curvature times the point's
-/// spacing, which is 3e-10 on the rounded apex of a cone; Eq. 5 multiplies slip by a load that may be 1e4
-/// m V) its residual is what is left beyond the rounding of the answer's own numbers.
-///
 /// What a solution has to fulfil, in the order in which a report names equals. Residuals are without unit:
 /// lengths over L, velocities over V, impulses over the (lighter) moving body's mass times V, moments over
 /// its radius of gyration too (Units).
@@ -66,6 +61,20 @@ struct Step {
   std::span<const std::array<std::vector<double>, 2>> multipliers = {};
 };
 
+/// By how much a condition is missed, and how much of that the rounding of the answer's own numbers explains.
+///
+/// The answer is told in rounded world coordinates and velocities, which no step can choose finer than their
+/// spacing: 4e-15 m at 25 m. Some conditions magnify that: a normal turns by curvature times the point's
+/// spacing, which is 3e-10 on the rounded apex of a cone, and Eq. 5 multiplies slip by a load that may be 1e4
+/// m V.
+struct Missed {
+  Missed(double missed, double explained = 0.0) : residual(missed), rounding(explained) {}
+  double residual;
+  double rounding;
+  /// What rounding does not explain; NaN stays.
+  [[nodiscard]] double beyond() const { return residual > rounding ? residual - rounding : residual * 0; }
+};
+
 /// By how much each condition is missed, and where most.
 struct Report {
   struct Worst {
@@ -74,6 +83,7 @@ struct Report {
     int other = -1;    ///< `separation`: the second body
   };
   std::array<Worst, kConditions> worst{};
+  double beyond_rounding = 0.0;  ///< largest of what rounding does not explain, of all conditions
 
   [[nodiscard]] const Worst& operator[](Condition c) const { return worst[static_cast<std::size_t>(c)]; }
   [[nodiscard]] double residual(Condition c) const { return (*this)[c].residual; }
@@ -81,8 +91,9 @@ struct Report {
   [[nodiscard]] Condition worst_condition() const;
   [[nodiscard]] double largest() const { return residual(worst_condition()); }
   [[nodiscard]] bool holds(double tolerance) const { return largest() <= tolerance; }
+  [[nodiscard]] bool holds_but_for_rounding(double tolerance) const { return beyond_rounding <= tolerance; }
 
-  void note(Condition c, double residual, int subject, int other = -1);
+  void note(Condition c, const Missed& missed, int subject, int other = -1);
 };
 
 /// Which contacts are held to the conditions of closest points, gap and friction.
@@ -120,8 +131,8 @@ class Checker {
   void check_friction(std::size_t i, const ContactImpulse<Dim>& c, State after, Report& report) const;
   void check_separation(const Step<Dim>& step, Report& report) const;
   /// By how much `outward` (world frame) misses the normal cone of the body at `point`.
-  [[nodiscard]] double normal_residual(int body, const BodyState<Dim>& state, const Vector<Dim>& point,
-                                       const Vector<Dim>& outward) const;
+  [[nodiscard]] Missed normal_missed(int body, const BodyState<Dim>& state, const Vector<Dim>& point,
+                                     const Vector<Dim>& outward) const;
   [[nodiscard]] double impulse_unit(const ContactImpulse<Dim>& c) const;
 
   const Scene<Dim>& scene_;

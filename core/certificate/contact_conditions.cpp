@@ -45,11 +45,6 @@ double arm_rounding(const Vector<Dim>& point, const Vector<Dim>& center) {
          std::max(point.template lpNorm<Eigen::Infinity>(), center.template lpNorm<Eigen::Infinity>());
 }
 
-/// What is left of a residual beyond what rounding of the answer's own numbers explains; NaN stays.
-double beyond(double residual, double rounding) {
-  return residual > rounding ? residual - rounding : residual * 0;
-}
-
 }  // namespace
 
 /// Unit of impulse at a contact: the lighter moving body's mass times V.
@@ -104,15 +99,15 @@ void Checker<Dim>::check_points(std::size_t i, const ContactImpulse<Dim>& c, Sta
     double value = surface.value(0, x);
     for (int k = 1; k < surface.count(); ++k) value = std::max(value, surface.value(k, x));
     report.note(Condition::surface, std::abs(value) / units_.length, subject);
-    report.note(Condition::normal, normal_residual(body, state, point, outward), subject);
+    report.note(Condition::normal, normal_missed(body, state, point, outward), subject);
   }
 }
 
 /// The multipliers are found here: over a widening band below the surface, the larger of the band used and of
 /// the distance of the normal from the cone of the gradients in it.
 template <int Dim>
-double Checker<Dim>::normal_residual(int body, const BodyState<Dim>& state, const Vector<Dim>& point,
-                                     const Vector<Dim>& outward) const {
+Missed Checker<Dim>::normal_missed(int body, const BodyState<Dim>& state, const Vector<Dim>& point,
+                                   const Vector<Dim>& outward) const {
   constexpr double kFirstBand = 1e-13;  // over L
   constexpr double kLastBand = 1e-2;
   constexpr std::size_t kMost = 16;  // gradients; the nearest ones
@@ -125,9 +120,10 @@ double Checker<Dim>::normal_residual(int body, const BodyState<Dim>& state, cons
   };
   if (surface.count() == 1) {
     const SurfaceJet<Dim> jet = surface.jet(0, x);
-    return beyond((jet.gradient.normalized() - normal).norm(), turn(jet));
+    return {(jet.gradient.normalized() - normal).norm(), turn(jet)};
   }
   double best = std::numeric_limits<double>::infinity();
+  double best_beyond = best;
   std::vector<Vector<Dim>> gradients;
   double top = surface.value(0, x);
   for (int k = 1; k < surface.count(); ++k) top = std::max(top, surface.value(k, x));
@@ -141,9 +137,11 @@ double Checker<Dim>::normal_residual(int body, const BodyState<Dim>& state, cons
       largest_turn = std::max(largest_turn, turn(jet));
     }
     const double inexact = band > kFirstBand ? band : 0.0;
-    best = std::min(best, std::max(inexact, beyond(cone_distance(gradients, normal), largest_turn)));
+    const Missed missed(cone_distance(gradients, normal), largest_turn);
+    best = std::min(best, std::max(inexact, missed.residual));
+    best_beyond = std::min(best_beyond, std::max(inexact, missed.beyond()));
   }
-  return best;
+  return {best, best - best_beyond};
 }
 
 /// The multipliers that the answer tells: nonnegative, of active inequalities alone, making up the normal.
@@ -169,7 +167,7 @@ void Checker<Dim>::check_multipliers(std::size_t i, const Step<Dim>& step, Repor
     }
     const Vector<Dim> outward = side == 0 ? Vector<Dim>(-c.normal) : c.normal;
     const double uncertain = turn * arm_rounding<Dim>(side == 0 ? c.point_a : c.point_b, pose.position);
-    report.note(Condition::multipliers, beyond((pose.rotation.matrix() * normal - outward).norm(), uncertain),
+    report.note(Condition::multipliers, {(pose.rotation.matrix() * normal - outward).norm(), uncertain},
                 static_cast<int>(i));
   }
 }
@@ -221,8 +219,7 @@ void Checker<Dim>::check_friction(std::size_t i, const ContactImpulse<Dim>& c, S
                  kSpacing * (speed + turning * (point - body->pose.position).norm());
   }
   const double by_slip = (std::abs(limit) + y.norm()) * e.maxCoeff() * uncertain / units_.velocity;
-  report.note(Condition::dissipation, beyond((limit * w + sigma * y).cwiseAbs().maxCoeff(), by_slip),
-              subject);
+  report.note(Condition::dissipation, {(limit * w + sigma * y).cwiseAbs().maxCoeff(), by_slip}, subject);
   // Not the difference of squares as printed, which has the same zeros but hides slip under small loads.
   report.note(Condition::slip_outside, std::min(sigma, limit - y.norm()), subject);
 }
