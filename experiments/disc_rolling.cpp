@@ -207,8 +207,8 @@ std::vector<std::string> default_methods() {
                                    "step_limited"};
   for (const MethodEntry<2>& entry : methods<2>()) {
     if (!entry.version().empty()) keys.emplace_back(entry.key);
-    // Stiffer friction beside it, which is what its polygon of 30 edges lacks.
-    if (entry.key == "mujoco_elliptic_stiff") keys.emplace_back("mujoco_elliptic_stiff:impratio=100");
+    // Over-damped contacts beside its own, which are critically damped and rebound from each corner.
+    if (entry.key == "mujoco_elliptic_stiff") keys.emplace_back("mujoco_elliptic_stiff:dampratio=5");
   }
   return keys;
 }

@@ -1,6 +1,7 @@
 # The engines: one .cpp each, added if its library is there. Box2D, Bullet and ODE are required; the others are found
 # if installed and wanted. An engine's absence is told at configuration and leaves its methods out of the table.
 option(TOUCHSTONE_OPTIONAL_ENGINES "Look for MuJoCo, Chipmunk, DART, Siconos and Simbody" ON)
+set(TOUCHSTONE_EXTRA_ENGINES "" CACHE STRING "Files NAME.cpp of engines outside baselines/engines that need no library")
 set(engines_dir ${CMAKE_CURRENT_LIST_DIR})
 find_package(PkgConfig REQUIRED)
 
@@ -16,15 +17,21 @@ target_sources(touchstone_baselines PRIVATE
   ${engines_dir}/silence.cpp
 )
 
-# touchstone_engine(<name> <source> <target>...): the adapter, its library, and TOUCHSTONE_HAS_<NAME> for the table.
+# touchstone_engine(<name> <source> <target>...): the adapter, which defines Rows <name>_rows(), and its libraries.
 function(touchstone_engine name source)
-  string(TOUPPER ${name} upper)
-  target_sources(touchstone_baselines PRIVATE ${engines_dir}/${source})
+  cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${engines_dir})
+  target_sources(touchstone_baselines PRIVATE ${source})
   target_link_libraries(touchstone_baselines PRIVATE ${ARGN} ${CMAKE_DL_LIBS})
-  set_property(SOURCE ${engines_dir}/engines.cpp TARGET_DIRECTORY touchstone_baselines
-    APPEND PROPERTY COMPILE_DEFINITIONS TOUCHSTONE_HAS_${upper}=1)
+  set_property(TARGET touchstone_baselines APPEND PROPERTY TOUCHSTONE_ENGINES ${name})
   message(STATUS "Engine ${name}: yes")
 endfunction()
+
+# The list that engines.cpp includes, written when all engines are known.
+set(listed "$<TARGET_PROPERTY:touchstone_baselines,TOUCHSTONE_ENGINES>")
+file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/engines/engines.inc
+  CONTENT "TOUCHSTONE_ENGINE($<JOIN:${listed},)\nTOUCHSTONE_ENGINE(>)\n")
+set_property(SOURCE ${engines_dir}/engines.cpp TARGET_DIRECTORY touchstone_baselines
+  PROPERTY INCLUDE_DIRECTORIES ${CMAKE_CURRENT_BINARY_DIR}/engines)
 
 # find_engine_package(<package> <argument>...): find_package, quietly. What a search that failed leaves in the cache is
 # removed, or parts that were missing would stay so after they are installed. A macro, for find_package sets variables.
@@ -80,6 +87,11 @@ set_source_files_properties(${engines_dir}/bullet_float.cpp TARGET_DIRECTORY tou
 
 pkg_check_modules(TOUCHSTONE_ODE REQUIRED IMPORTED_TARGET ode)
 touchstone_engine(ode ode.cpp PkgConfig::TOUCHSTONE_ODE)
+
+foreach(source IN LISTS TOUCHSTONE_EXTRA_ENGINES)
+  cmake_path(GET source STEM name)
+  touchstone_engine(${name} ${source})
+endforeach()
 
 if(NOT TOUCHSTONE_OPTIONAL_ENGINES)
   message(STATUS "Engines mujoco, chipmunk, dart, siconos, simbody: not wanted")

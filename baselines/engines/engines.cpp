@@ -4,27 +4,17 @@
 
 namespace touchstone::engines {
 
+// CMake writes engines.inc: a line TOUCHSTONE_ENGINE(name) for each engine that is found.
+#define TOUCHSTONE_ENGINE(name) Rows name##_rows();
+#include "engines.inc"
+#undef TOUCHSTONE_ENGINE
+
 std::span<const Rows> all_rows() {
+#define TOUCHSTONE_ENGINE(name) name##_rows(),
   static const auto rows = std::to_array<Rows>({
-      box2d_rows(),
-      bullet_rows(),
-      ode_rows(),
-#ifdef TOUCHSTONE_HAS_CHIPMUNK
-      chipmunk_rows(),
-#endif
-#ifdef TOUCHSTONE_HAS_DART
-      dart_rows(),
-#endif
-#ifdef TOUCHSTONE_HAS_MUJOCO
-      mujoco_rows(),
-#endif
-#ifdef TOUCHSTONE_HAS_SICONOS
-      siconos_rows(),
-#endif
-#ifdef TOUCHSTONE_HAS_SIMBODY
-      simbody_rows(),
-#endif
+#include "engines.inc"
   });
+#undef TOUCHSTONE_ENGINE
   return rows;
 }
 

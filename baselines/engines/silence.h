@@ -16,4 +16,17 @@ class SilencedStdout {
   int saved_ = -1;  ///< the real standard output, or -1 if it could not be redirected
 };
 
+/// While it lives, what this thread writes to C's `stderr` is dropped; other threads, and std::cerr, print
+/// on. Costs next to nothing. The first one of a process replaces `stderr` by a stream that asks, for good.
+class SilencedStderr {
+ public:
+  SilencedStderr();
+  ~SilencedStderr();
+  SilencedStderr(const SilencedStderr&) = delete;
+  SilencedStderr& operator=(const SilencedStderr&) = delete;
+
+ private:
+  bool before_;  ///< whether the thread was silenced already
+};
+
 }  // namespace touchstone::engines

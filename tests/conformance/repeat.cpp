@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "core/model/errors.h"
 #include "tests/conformance/feature.h"
@@ -46,6 +47,36 @@ void fresh_process(const Subject<Dim>& subject) {
   EXPECT_EQ(here, there);
 }
 
+/// A box that slides on the ground and stops, with more contact forces than its motion determines.
+template <int Dim>
+Scene<Dim> sliding_box() {
+  Body<Dim> box = ball<Dim>("box", 0.5 * up<Dim>());
+  box.shape = {Box<Dim>{Vector<Dim>::Constant(0.5)}};
+  box.inertia = Inertia<Dim>::Identity() / 6;
+  box.velocity[0] = 0.2;
+  return on_ground(box, 0.3);
+}
+
+/// Neither while it loads nor while it steps does anything come out, whoever in the library prints it.
+template <int Dim>
+void silent(const Subject<Dim>& subject) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  for (const auto& scene : {busy_scene<Dim>(), sliding_box<Dim>()}) {
+    try {
+      const auto method = subject.entry.make(scene, {});
+      for (int k = 0; k < kTraceSteps; ++k) {
+        if (method->step(kStep).status != StepStatus::solved) break;
+      }
+    } catch (const Unsupported&) {
+    }
+  }
+  std::fflush(stdout);
+  constexpr std::size_t kShown = 200;
+  EXPECT_EQ(testing::internal::GetCapturedStdout().substr(0, kShown), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr().substr(0, kShown), "");
+}
+
 /// The bodies given in the reverse order. Engines may solve in another order, so this is not to the last bit;
 /// a body that got another's mass or law would be off by its own motion.
 template <int Dim>
@@ -78,6 +109,7 @@ std::vector<Feature<Dim>> repeat_features() {
       {"no_leak", "other scenes before and beside a run leave no trace in it", &no_leak<Dim>},
       {"fresh_process", "another process gives the same bytes, and nothing else on stdout",
        &fresh_process<Dim>},
+      {"silent", "nothing is printed", &silent<Dim>},
       {"two_orders", "the order of the bodies does not matter", &two_orders<Dim>},
   };
 }

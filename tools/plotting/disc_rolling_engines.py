@@ -28,7 +28,7 @@ def read_engines(directory):
 
 def label_of(row):
     """The method, and the option by which it differs from another row of the same method."""
-    return row["method"] + (" *" if "impratio=100" in row["options"].split(";") else "")
+    return row["method"] + (" *" if "dampratio=5" in row["options"].split(";") else "")
 
 
 def order_of(label):
@@ -100,7 +100,7 @@ def engines(directory):
         "A disc that rolls on a plane, as itself and as polygons, beside the exact, event-driven polygon. "
         f"Values below {FLOOR:g} are drawn there.\n"
         "Grey: less than one corner's impact, where the time of the last impact decides. "
-        "* with impratio = 100; simbody_hunt_crossley has no polygons.")
+        "* with dampratio = 5; simbody_hunt_crossley has no polygons.")
     return figure
 
 

@@ -1,4 +1,4 @@
-"""What stands beside each adapter: baselines/engines/<engine>.toml."""
+"""What stands beside each adapter: baselines/engines/<engine>.toml. An engine may do without: the page then says so."""
 
 import tomllib
 
@@ -28,6 +28,23 @@ def read_notes(directory):
         check(path, note)
         notes.append(note)
     return sorted(notes, key=lambda note: note["name"].lower())
+
+
+def without_notes(methods, notes):
+    """In the place of notes for those of `methods` that none has, one an engine: what a key begins with, as its .cpp.
+    @raises InputProblem if an engine has notes that leave a method of its out"""
+    known = {method for note in notes for method in note["methods"]}
+    engines = {}
+    for method in sorted(set(methods) - known):
+        engines.setdefault(method.split("_")[0], []).append(method)
+    for note in notes:
+        for method in note["methods"]:
+            if method.split("_")[0] in engines:
+                left_out = ", ".join(engines[method.split("_")[0]])
+                raise InputProblem(f"notes of {note['name']}: methods: {left_out}: not among them")
+    return [{"name": name, "package": "not noted", "methods": found, "settings": None, "effect_of_skin": "",
+             "about": f"Nobody has written notes on this engine. They belong in `baselines/engines/{name}.toml`."}
+            for name, found in engines.items()]
 
 
 def cause(note, method, scenario, dimension):

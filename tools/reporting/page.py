@@ -4,7 +4,7 @@ import math
 
 from plotting.errors import InputProblem
 
-from .notes import cause
+from .notes import cause, without_notes
 from .polygons import polygon_section, polygon_verdict
 from .tables import Tables, number
 
@@ -95,19 +95,20 @@ def settings_section(tables, note):
     for method in note["methods"]:
         for option, value in tables.settings(method).items():
             in_force.setdefault(option, {}).setdefault(value, []).append(method)
-    if set(in_force) != set(note["settings"]):
+    if note["settings"] is not None and set(in_force) != set(note["settings"]):
         odd = ", ".join(sorted(set(in_force) ^ set(note["settings"])))
         raise InputProblem(f"notes of {note['name']}: settings: {odd}: in the notes or among the options only")
     rows = []
     for option in sorted(in_force):
         values = in_force[option]
         shown = [value if len(values) == 1 else f"{value} ({code(methods)})" for value, methods in sorted(values.items())]
-        rows.append([f"`{option}`", ", ".join(shown), note["settings"][option]])
-    return table(["setting", "value", "why"], rows)
+        rows.append([f"`{option}`", ", ".join(shown), note["settings"][option] if note["settings"] else "not noted"])
+    return table(["setting", "value", "why"], rows) if rows else ""
 
 
 def engine_section(tables, note, times):
-    parts = [f"## {note['name']}\n", note["about"] + "\n", note["effect_of_skin"] + "\n", settings_section(tables, note)]
+    texts = [note["about"] + "\n", note["effect_of_skin"] + "\n" if note["effect_of_skin"] else "", settings_section(tables, note)]
+    parts = [f"## {note['name']}\n", *filter(None, texts)]
     if "polygons" in note:
         parts.append(polygon_verdict(tables, note))
     for method in note["methods"]:
@@ -163,9 +164,8 @@ def timing_section(times, methods):
 def page(results, notes, times):
     """The page. @raises InputProblem if a table is missing or notes and tables do not agree"""
     tables = Tables(results)
+    notes = sorted([*notes, *without_notes(tables.versions, notes)], key=lambda note: note["name"].lower())
     known = {method for note in notes for method in note["methods"]}
-    if missing := set(tables.versions) - known:
-        raise InputProblem(f"no notes on {', '.join(sorted(missing))} in baselines/engines/*.toml")
     notes = [note for note in notes if set(note["methods"]) & set(tables.versions)]
     parts = [INTRODUCTION, overview(tables, notes), closed_form_section(), polygon_section(tables, notes),
              matrix_section(tables), timing_section(times, known)]

@@ -2,11 +2,16 @@
 
 import math
 
-from .tables import EDGES, STEPS, number, of_a_step, of_one_impact, options_of
+from .tables import EDGES, FINEST, STEPS, number, of_a_step, of_one_impact
 
 
 def excess(row):
     return number(row["method_loss_1s_J"]) if row is not None and row["status"] == "ok" else math.nan
+
+
+def excess_to_the_end(row):
+    """As excess, by the end of the run, which at the finest step is before 1 s."""
+    return number(row["loss_J"]) - number(row["polygon_loss_J"]) if row is not None and row["status"] == "ok" else math.nan
 
 
 def cell(value):
@@ -15,11 +20,15 @@ def cell(value):
 
 def polygon_section(tables, notes):
     exact = {n: number(tables.polygon("stewart_trinkle", n, STEPS[0])["polygon_loss_1s_J"]) for n in EDGES}
-    header = ["method"] + [f"N = {n}: h = {h:g}" if h == STEPS[0] else f"{h:g}" for n in EDGES for h in STEPS]
+    steps = [*(f"{h:g}" for h in STEPS[1:]), f"{FINEST:g}"]
+    header = ["method"] + [text for n in EDGES for text in (f"N = {n}: h = {STEPS[0]:g}", *steps)]
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     methods = ["stewart_trinkle"] + [method for note in notes for method in note["methods"]]
     for method in methods:
-        values = [excess(tables.polygon(method, n, h)) for n in EDGES for h in STEPS]
+        values = []
+        for n in EDGES:
+            values += [excess(tables.polygon(method, n, h)) for h in STEPS]
+            values.append(excess_to_the_end(tables.polygon(method, n, FINEST)))
         if not all(math.isnan(value) for value in values):
             lines.append(f"| `{method}` | " + " | ".join(cell(value) for value in values) + " |")
     impacts = ", ".join(f"{of_one_impact(n):.4f} J ({n})" for n in EDGES)
@@ -27,51 +36,90 @@ def polygon_section(tables, notes):
     return (
         "## Polygons: the shape's own physics, and the engine's error\n\n"
         "A disc that rolls keeps its energy; a rigid polygon loses some at each corner, whoever simulates it. The exact, "
-        f"event-driven polygon loses in 1 s {losses}. What each method loses beyond that (+) or too little (-) by 1 s [J]:\n\n"
+        f"event-driven polygon loses in 1 s {losses}. What each method loses beyond that (+) or too little (-) by 1 s [J], at "
+        f"h = {FINEST:g} s by 0.2 s:\n\n"
         + "\n".join(lines)
         + f"\n\nOne impact takes up to {impacts}, so below that the time of the last one decides. "
-        + still_apart(tables, methods)
+        + still_apart(tables, notes) + refusals(tables, methods)
         + "\n\n![What each method adds to the exact loss](disc_rolling/engines.png)\n\n"
         "![Energy over time of the same polygon in one method of each engine](disc_rolling/engines_energy.png)\n")
 
 
-def still_apart(tables, methods):
-    """Methods whose excess at the smallest step is more than an impact, which are to say why."""
-    apart = [(method, n, excess(tables.polygon(method, n, STEPS[-1]))) for method in methods for n in EDGES]
-    apart = [(m, n, v) for m, n, v in apart if not math.isnan(v) and abs(v) > max(of_one_impact(n), of_a_step(STEPS[-1]))]
-    if not apart:
-        return f"At h = {STEPS[-1]:g} s all methods are within that."
-    names = sorted({method for method, _, _ in apart})
-    return (f"At h = {STEPS[-1]:g} s these are further from the exact polygon than one impact and than the "
-            f"{of_a_step(STEPS[-1]):.4f} J that a gap linearised over a step takes: "
-            + ", ".join(f"`{name}`" for name in names) + "; their sections say why.")
+def is_apart(value, edges, h, time):
+    """Whether an excess [J] is more than one impact and than what linearising the gap takes in `time` [s]."""
+    return not math.isnan(value) and abs(value) > max(of_one_impact(edges), of_a_step(h) * time)
 
 
-def loss_per_step(tables, note):
-    """An experiment on rounding: the excess for each step, at two steps."""
-    method, edges = note["methods"][0], note["polygons"]["edges"]
+def apart(tables, method):
+    """Whether `method` stays apart from the exact polygon at one of the two finest steps."""
+    for edges in EDGES:
+        fine, finest = (tables.polygon(method, edges, h) for h in (STEPS[-1], FINEST))
+        if is_apart(excess(fine), edges, STEPS[-1], 1.0):
+            return True
+        if is_apart(excess_to_the_end(finest), edges, FINEST, number(finest["until_s"]) if finest else math.nan):
+            return True
+    return False
+
+
+def quoted(names):
+    return ", ".join(f"`{name}`" for name in names)
+
+
+def still_apart(tables, notes):
+    """Who does not approach the exact polygon, and who of them has nothing written that says why."""
+    fine = f"h = {STEPS[-1]:g} or {FINEST:g} s"
+    found = {method: "polygons" in note for note in notes for method in note["methods"] if apart(tables, method)}
+    if not found:
+        return f"At {fine} all methods are within that."
+    text = (f"At {fine} these are further from the exact polygon than one impact and than what a gap linearised over a step "
+            f"takes ({of_a_step(STEPS[-1]):.4f} J in 1 s at h = {STEPS[-1]:g} s): {quoted(sorted(found))}.")
+    unexplained = sorted(method for method, explained in found.items() if not explained)
+    if len(unexplained) < len(found):
+        text += " The engines' sections say why."
+    if unexplained:
+        text += f" **Not explained: {quoted(unexplained)}.**"
+    return text
+
+
+def refusals(tables, methods):
+    """Who has no polygons at all."""
     found = []
-    for h in (0.0001, 0.00002):
-        row = tables.polygon(method, edges, h)
-        if row is None or row["status"] != "ok":
-            return ""
-        extra = (number(row["loss_J"]) - number(row["polygon_loss_J"])) / number(row["steps"])
-        found.append(f"{extra:.1e} J a step at h = {h:g} s")
-    return f"With {edges} edges the excess is {' and '.join(found)}, over 10,000 steps each."
+    for method in methods:
+        rows = [row for row in (tables.polygon(method, n, STEPS[-1]) for n in EDGES) if row is not None]
+        if rows and all(row["status"] == "unsupported" for row in rows):
+            found.append(f"`{method}` ({rows[0]['reason']})")
+    return " Without polygons: " + "; ".join(found) + "." if found else ""
+
+
+def at_the_start(tables, note):
+    """An experiment on time: how much less energy than the exact polygon there is early on, and how much at the end."""
+    edges = note["polygons"]["edges"]
+    found = []
+    for method in note["methods"]:
+        for h in (STEPS[-1], FINEST):
+            exact, own = tables.energy("exact_polygon", edges, h), tables.energy(method, edges, h)
+            times = sorted(set(exact) & set(own) - {0.0})
+            if times:
+                less = " and ".join(f"{exact[t] - own[t]:.4f} J by {t:g} s" for t in (times[0], times[-1]))
+                found.append(f"`{method}`, h = {h:g} s: {less}")
+    return f"Lost beyond the exact polygon with {edges} edges: {'; '.join(found)}." if found else ""
 
 
 def variants(tables, note):
-    """An experiment on options: the excess of methods and of their variants at the smallest step."""
-    edges, h = note["polygons"]["edges"], STEPS[-1]
-    found = []
+    """An experiment on options: the excess of methods and of their variants, all edges, at the smallest step with 1 s."""
+    h = STEPS[-1]
+    found = {}
     for row in tables.disc:
-        if row["method"] in note["methods"] and row["edges"] == str(edges) and float(row["h_s"]) == h:
-            option = options_of(row["options"]).get("impratio", "1")
-            found.append(f"`{row['method']}`" + (f" with impratio {option}" if option != "1" else "") + f" {excess(row):+.3f} J")
-    return f"With {edges} edges at h = {h:g} s: " + ", ".join(found) + "."
+        if row["method"] in note["methods"] and row["edges"] in map(str, EDGES) and float(row["h_s"]) == h:
+            changed = ", ".join(f"{option} {value}" for option, value in sorted(tables.changed(row).items()))
+            label = f"`{row['method']}`" + (f" with {changed}" if changed else "")
+            found.setdefault(label, {})[row["edges"]] = f"{excess(row):+.3f}"
+    shown = "; ".join(f"{label} {', '.join(values[str(n)] for n in EDGES if str(n) in values)}"
+                      for label, values in sorted(found.items()))
+    return f"With {', '.join(map(str, EDGES))} edges at h = {h:g} s, in J: {shown}."
 
 
-EXPERIMENTS = {"loss_per_step": loss_per_step, "variants": variants}
+EXPERIMENTS = {"at_the_start": at_the_start, "variants": variants}
 
 
 def polygon_verdict(tables, note):

@@ -7,6 +7,7 @@ from plotting.errors import InputProblem
 from plotting.table import read_table
 
 STEPS = [0.01, 0.001, 0.0001]  # [s]
+FINEST = 0.00002  # [s]; over 0.2 s
 EDGES = [30, 100, 1000]
 
 
@@ -27,8 +28,11 @@ class Tables:
                                         "observed_order", "options", "h_s"])
         disc = self._rows(results / "disc_rolling" / "summary.csv",
                           ["method", "sweep", "edges", "h_s", "status", "polygon_loss_1s_J", "method_loss_1s_J",
-                           "loss_J", "polygon_loss_J", "steps", "options"])
+                           "loss_J", "polygon_loss_J", "until_s", "reason", "options"])
         self.disc = [row for row in disc if row["sweep"] == "engines"]
+        curves = self._rows(results / "disc_rolling" / "kinetic_energy.csv",
+                            ["method", "sweep", "edges", "h_s", "options", "t_s", "total_J"])
+        self.curves = [row for row in curves if row["sweep"] == "engines"]
         self.features = self._rows(results / "engines" / "capabilities.csv",
                                    ["dimension", "method", "feature", "result", "reason", "question"])
         self.versions = self._versions(results / "closed_forms" / "summary.meta.json")
@@ -51,13 +55,24 @@ class Tables:
                 return {k: v for k, v in options_of(row["options"]).items() if k not in ("edges", "disc_as")}
         return {}
 
-    def polygon(self, method, edges, h, want=lambda options: "impratio" not in options or options["impratio"] == "1"):
-        """The row of the sweep over all methods, or None."""
+    def changed(self, row):
+        """{option: value} of a row of the disc in which it differs from the method's settings elsewhere."""
+        usual = self.settings(row["method"])
+        return {k: v for k, v in options_of(row["options"]).items() if usual.get(k, v) != v}
+
+    def polygon(self, method, edges, h):
+        """The row of the sweep over all methods, with the method's usual settings, or None."""
         for row in self.disc:
             same = row["method"] == method and row["edges"] == (str(edges) if edges else "")
-            if same and float(row["h_s"]) == h and want(options_of(row["options"])):
+            if same and float(row["h_s"]) == h and not self.changed(row):
                 return row
         return None
+
+    def energy(self, method, edges, h):
+        """{t: total energy [J]} of a case of the sweep over all methods, with the method's usual settings."""
+        return {float(row["t_s"]): number(row["total_J"]) for row in self.curves
+                if row["method"] == method and row["edges"] == str(edges) and float(row["h_s"]) == h
+                and not self.changed(row)}
 
 
 def of_one_impact(edges):

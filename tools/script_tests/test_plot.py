@@ -39,7 +39,7 @@ def rows_of_summary():
         for edges in ("", 30, 100, 1000):
             for h in (0.01, 0.001, 0.0001):
                 ran = method != "implicit_ncp" or edges == ""
-                yield ["engines", method, "impratio=100" if h == 0.001 else "", edges, h, "ok" if ran else "unsupported",
+                yield ["engines", method, "dampratio=5" if h == 0.001 else "", edges, h, "ok" if ran else "unsupported",
                        h * loss if ran else "", 1.35 if ran else "", 0.2 if ran else ""]
 
 

@@ -11,7 +11,7 @@ sys.path.insert(0, str(TOOLS))
 
 from plotting.errors import InputProblem  # noqa: E402
 from reporting import page, polygons, timing  # noqa: E402
-from reporting.notes import cause, read_notes  # noqa: E402
+from reporting.notes import cause, read_notes, without_notes  # noqa: E402
 
 NOTE = {
     "name": "Engine", "package": "libengine-dev", "methods": ["engine_a", "engine_b"], "about": "About.",
@@ -28,11 +28,14 @@ def case(method, scenario, dimension="3", status="ok", error="0.1", order="0.0",
 class FakeTables:
     """Rows without files."""
 
-    def __init__(self, closed_forms=(), features=(), disc=()):
-        self.closed_forms, self.features, self.disc = list(closed_forms), list(features), list(disc)
+    def __init__(self, closed_forms=(), features=(), disc=(), curves=()):
+        self.closed_forms, self.features = list(closed_forms), list(features)
+        self.disc, self.curves = list(disc), list(curves)
 
     settings = page.Tables.settings
+    changed = page.Tables.changed
     polygon = page.Tables.polygon
+    energy = page.Tables.energy
 
 
 class Judged(unittest.TestCase):
@@ -74,13 +77,45 @@ class Matrix(unittest.TestCase):
         self.assertIn("| a box | yes | - |", text)
 
 
+def rolled(method, excess, h="0.0001", options="", edges="100"):
+    """A row of the disc, over 1 s, or over 0.2 s at the finest step."""
+    return {"method": method, "edges": edges, "h_s": h, "status": "ok", "options": options, "reason": "",
+            "method_loss_1s_J": excess if h == "0.0001" else "", "polygon_loss_J": "0.5", "loss_J": str(0.5 + float(excess)),
+            "until_s": "1" if h == "0.0001" else "0.2"}
+
+
+def notes_on(*methods, polygons=False):
+    note = {"name": "E", "methods": list(methods)}
+    return {**note, "polygons": {"why": "w", "experiment": "variants"}} if polygons else note
+
+
 class Polygons(unittest.TestCase):
-    def test_names_who_is_apart_at_the_smallest_step(self):
-        rows = [{"method": m, "edges": "100", "h_s": "0.0001", "status": "ok", "method_loss_1s_J": v, "options": ""}
-                for m, v in (("near", "0.01"), ("far", "-0.4"))]
-        text = polygons.still_apart(FakeTables(disc=rows), ["near", "far"])
-        self.assertIn("`far`", text)
+    def test_names_who_is_apart_at_one_of_the_finest_steps_and_has_no_reason(self):
+        rows = [rolled("near", "0.01"), rolled("near", "0.001", "2e-05"), rolled("far", "-0.4"),
+                rolled("late", "0.01"), rolled("late", "0.1", "2e-05")]
+        text = polygons.still_apart(FakeTables(disc=rows), [notes_on("near", "far"), notes_on("late", polygons=True)])
         self.assertNotIn("`near`", text)
+        self.assertIn("`far`, `late`.", text)
+        self.assertIn("**Not explained: `far`.**", text)
+        self.assertIn("all methods", polygons.still_apart(FakeTables(disc=rows[:2]), [notes_on("near")]))
+
+    def test_a_variant_is_not_the_method_itself(self):
+        tables = FakeTables([case("m", "free_fall", options="a=1")], disc=[rolled("m", "-0.4", options="a=2"),
+                                                                          rolled("m", "0.01", options="a=1")])
+        self.assertEqual(polygons.excess(tables.polygon("m", 100, 0.0001)), 0.01)
+        text = polygons.variants(tables, notes_on("m"))
+        self.assertIn("`m` +0.010; `m` with a 2 -0.400", text)
+
+    def test_energy_lost_early_is_told_from_energy_lost_all_the_time(self):
+        curves = [{"method": m, "edges": "100", "h_s": "0.0001", "options": "", "t_s": t, "total_J": e}
+                  for m, t, e in (("exact_polygon", "0.1", "9"), ("exact_polygon", "1", "8"), ("m", "0.1", "8.5"),
+                                  ("m", "1", "7.5"), ("m", "0", "10"), ("exact_polygon", "0", "10"))]
+        text = polygons.at_the_start(FakeTables(curves=curves), {"methods": ["m"], "polygons": {"edges": 100}})
+        self.assertIn("0.5000 J by 0.1 s and 0.5000 J by 1 s", text)
+
+    def test_a_method_without_polygons_is_named_with_its_reason(self):
+        row = {**rolled("m", "0"), "status": "unsupported", "reason": "only spheres"}
+        self.assertIn("`m` (only spheres)", polygons.refusals(FakeTables(disc=[row]), ["m"]))
 
 
 class Notes(unittest.TestCase):
@@ -91,6 +126,18 @@ class Notes(unittest.TestCase):
         for note in notes:
             for one in note.get("causes", []):
                 self.assertLessEqual(set(one["methods"]), set(note["methods"]), note["name"])
+
+    def test_an_engine_without_notes_is_on_the_page_and_told_where_they_belong(self):
+        [note] = without_notes(["engine_a", "new_x", "new_y"], [NOTE])
+        self.assertEqual(note["methods"], ["new_x", "new_y"])
+        tables = FakeTables([case("new_x", "free_fall", options="erp=0.2"), case("new_y", "free_fall", options="")])
+        text = page.engine_section(tables, note, {})
+        self.assertIn("`baselines/engines/new.toml`", text)
+        self.assertIn("| `erp` | 0.2 | not noted |", text)
+
+    def test_notes_that_leave_a_method_out_are_refused(self):
+        with self.assertRaisesRegex(InputProblem, "engine_c"):
+            without_notes(["engine_a", "engine_c"], [NOTE])
 
     def test_a_missing_key_is_named(self):
         with tempfile.TemporaryDirectory() as folder:
