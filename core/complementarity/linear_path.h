@@ -58,6 +58,9 @@ class LinearPath {
  public:
   explicit LinearPath(const LinearPathOptions& options = {});
 
+  /// Another limit than that of the options, with the same meaning. @param pivots  >= 0
+  void limit_pivots(int pivots) { options_.max_pivots = pivots; }
+
   /// Makes room for problems of size n, so that solving one with a core of less than DenseLu::blocked_size
   /// allocates nothing. For one size: a problem of another size takes the room away.
   void reserve(Eigen::Index n);

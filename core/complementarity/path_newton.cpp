@@ -21,6 +21,7 @@ SolveReport PathNewton::solve(const MixedComplementarityProblem& problem, Eigen:
   z = z.cwiseMax(problem.lower()).cwiseMin(problem.upper());
   tentative_steps_ = 0;
   checkpoint_direction_.resize(z.size());
+  if (options_.linear.max_pivots == 0) path_.limit_pivots(100 + static_cast<int>(z.size() / 2));
   if (!search_.start(problem, z)) return search_.finish(SolveStatus::non_finite, z);
   crash_.run(problem, options_.crash_steps, search_);
   while (!search_.converged()) {

@@ -13,6 +13,8 @@ namespace touchstone {
 
 struct PathNewtonOptions {
   SearchOptions search;
+  /// Of the linearised problems. Here max_pivots = 0 means 100 + n / 2: far from a solution the path may be
+  /// long, and a regularised step then brings more than the rest of it.
   LinearPathOptions linear;
   /// Projected Newton steps to begin with, at most, which find most of the active set at once (CrashStart);
   /// in [0, 100], 0: none.

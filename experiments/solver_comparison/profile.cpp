@@ -99,13 +99,12 @@ std::string describe_shares(const std::vector<Effort>& efforts) {
 std::string describe_speed(const Table& speed) {
   std::string text;
   for (const Row& row : speed.rows) {
-    const double ratio = number_or(row[5], 0.0);
-    if (!row[1].empty() || ratio == 0.0) continue;
+    const auto number = [&](std::size_t column) { return number_or(row[column], 0.0); };
+    if (!row[1].empty() || row[5].empty()) continue;
     text += fmt::format(
-        "{:12} {:24} takes 1/{:.1f} of the time of Siconos's fastest, median over {} problems ({}; from "
-        "1/{:.1f} "
-        "to 1/{:.1f})\n",
-        row[0], row[2], ratio, row[4], row[10], number_or(row[6], 0.0), number_or(row[7], 0.0));
+        "{:12} {:24} Siconos's fastest takes {:.1f} times as long, median over {} problems ({:.2g} to "
+        "{:.2g})\n",
+        row[0], row[2], number(5), row[4], number(6), number(7));
   }
   return text;
 }

@@ -27,7 +27,8 @@ def arguments(argv):
 
 def draw(experiment, directory):
     """All figures of an experiment: every one is rendered before the first is written."""
-    rendered = {name: render(figure(directory)) for name, figure in EXPERIMENTS[experiment].items()}
+    figures = {name: function(directory) for name, function in EXPERIMENTS[experiment].items()}
+    rendered = {name: render(figure) for name, figure in figures.items() if figure is not None}
     for name, files in rendered.items():
         for suffix, content in files.items():
             path = directory / f"{name}.{suffix}"

@@ -1,7 +1,10 @@
-"""The one table of figures: experiment -> figure name -> function of the experiment's directory."""
+"""The one table of figures: experiment -> figure name -> function of the experiment's directory.
+
+A function gives None where the table of its figure belongs to a run and is not there.
+"""
 
 from . import box_on_incline, closed_forms, disc_rolling, disc_rolling_engines, ellipsoid_rolling, euler_disc
-from . import rattleback, sphere_on_spheres, sphere_spin, tippe_top
+from . import rattleback, solver_comparison, sphere_on_spheres, sphere_spin, tippe_top
 
 EXPERIMENTS = {
     "box_on_incline": {
@@ -23,6 +26,10 @@ EXPERIMENTS = {
         "errors": ellipsoid_rolling.errors,
         "energy_drift": ellipsoid_rolling.energy_drift,
         "paths": ellipsoid_rolling.paths,
+    },
+    "solver_comparison": {
+        "profile": solver_comparison.iterations,
+        "profile_timing": solver_comparison.time,
     },
     "sphere_on_spheres": {
         "figure_6": sphere_on_spheres.figure_6,

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <random>
+#include <regex>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "core/complementarity/solver_chain.h"
@@ -15,6 +19,12 @@ namespace touchstone {
 namespace {
 
 using Eigen::VectorXd;
+
+std::string read_source(const std::string& path) {
+  std::ifstream file(std::string(SOURCE_ROOT) + "/" + path);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -121,6 +131,40 @@ TEST(Options, OneCallSetsTheToleranceOfAChain) {
   options.set_tolerance(1e-7);
   EXPECT_EQ(options.path.search.tolerance, 1e-7);
   EXPECT_EQ(options.semismooth.search.tolerance, 1e-7);
+}
+
+// -- Each option is in the list --
+
+/// Names of the data members of `struct name { ... };` in a header.
+std::vector<std::string> fields_of(const std::string& header, const std::string& name) {
+  const std::string text = read_source("core/complementarity/" + header);
+  const std::size_t begin = text.find("struct " + name + " {");
+  const std::size_t end = text.find("\n};", begin);
+  EXPECT_NE(end, std::string::npos) << name;
+  const std::string body = text.substr(begin, end - begin);
+  const std::regex field(R"(\n  (?:const )?[A-Za-z_:0-9]+ ([a-z_]+)(?: = [^;]+)?;)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(body.begin(), body.end(), field), none; at != none; ++at)
+    names.push_back((*at)[1]);
+  return names;
+}
+
+TEST(Options, EveryOptionIsListedInTheReadme) {
+  const std::string readme = read_source("core/complementarity/README.md");
+  for (const auto& [header, name, count] : std::vector<std::tuple<std::string, std::string, std::size_t>>{
+           {"merit_search.h", "SearchOptions", 11},
+           {"linear_path.h", "LinearPathOptions", 3},
+           {"path_newton.h", "PathNewtonOptions", 5},
+           {"semismooth_newton.h", "SemismoothNewtonOptions", 3},
+           {"solver_chain.h", "SolverChainOptions", 11}}) {
+    const std::size_t begin = readme.find("### " + name);
+    ASSERT_NE(begin, std::string::npos) << name;
+    const std::string section = readme.substr(begin, readme.find("\n###", begin + 1) - begin);
+    const std::vector<std::string> fields = fields_of(header, name);
+    EXPECT_EQ(fields.size(), count) << name;
+    for (const std::string& field : fields)
+      EXPECT_NE(section.find("`" + field + "`"), std::string::npos) << name << "." << field;
+  }
 }
 
 // -- Bad values are refused by name --
