@@ -18,7 +18,7 @@ constexpr Eigen::Index kLargestDense = 3000;
 constexpr Eigen::Index kLargestPath = 600;
 /// Where central paths begin, in this order, and down to where they are followed: epsilon of SmoothedStep.
 constexpr std::array kPathStarts = {0.1, 0.03, 0.01, 0.3, 1.0};
-constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+constexpr std::array kPathEnds = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
 constexpr std::array kSolverNames = {"condensed", "path", "semismooth"};
 
