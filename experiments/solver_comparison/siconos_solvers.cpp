@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <lcp_cst.h>
+#include <malloc.h>
 
 #include <cstdlib>
 #include <memory>
@@ -227,6 +228,9 @@ Answer solve_by_siconos(const std::string& solver, const Task& task) {
     if (!task.linear) throw Unsupported("the problem is not linear");
     return answer([&] { return run_lcp(form, start); });
   }
+  // The path search reads storage that it never wrote, so that its answers depend on what the process did
+  // before. With this all storage from malloc() is zero at first (glibc), and they are the same in every run.
+  if (solver == "siconos_ncp_path_search") ::mallopt(M_PERTURB, 0xff);
   const char* name = solver == "siconos_ncp_fb"    ? SICONOS_NCP_NEWTON_FB_FBLSA_STR
                      : solver == "siconos_ncp_min" ? SICONOS_NCP_NEWTON_MIN_FBLSA_STR
                                                    : SICONOS_NCP_PATHSEARCH_STR;
