@@ -10,6 +10,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <lcp_cst.h>
+#include <malloc.h>
 
 #include <cstdlib>
 #include <memory>
@@ -193,6 +194,21 @@ void use_one_thread() {
     reinterpret_cast<void (*)(int)>(symbol)(1);
 }
 
+/// The path search reads storage that it never wrote, so that its answers depend on what the process did
+/// before. With this all storage from malloc() is zero at first, as far as glibc lets one ask for that: what
+/// it keeps aside of small blocks that were freed would come back as it is, and is therefore used up (and
+/// lost, to a process that ends with the solve).
+void clear_future_storage() {
+  constexpr std::size_t kLargestKept = 1032, kStep = 16, kKeptOfEach = 7;
+  for (std::size_t size = 24; size <= kLargestKept; size += kStep) {
+    for (std::size_t i = 0; i < kKeptOfEach; ++i) {
+      void* volatile lost = std::malloc(size);
+      static_cast<void>(lost);
+    }
+  }
+  ::mallopt(M_PERTURB, 0xff);
+}
+
 Answer solve_friction(const FrictionSolver& solver, const Task& task,
                       const MixedComplementarityProblem& problem) {
   if (!task.frozen) throw Unsupported("it is no frictional contact problem");
@@ -227,6 +243,7 @@ Answer solve_by_siconos(const std::string& solver, const Task& task) {
     if (!task.linear) throw Unsupported("the problem is not linear");
     return answer([&] { return run_lcp(form, start); });
   }
+  if (solver == "siconos_ncp_path_search") clear_future_storage();
   const char* name = solver == "siconos_ncp_fb"    ? SICONOS_NCP_NEWTON_FB_FBLSA_STR
                      : solver == "siconos_ncp_min" ? SICONOS_NCP_NEWTON_MIN_FBLSA_STR
                                                    : SICONOS_NCP_PATHSEARCH_STR;
