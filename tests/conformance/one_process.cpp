@@ -16,6 +16,17 @@ namespace touchstone::conformance {
 
 namespace {
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define TOUCHSTONE_ADDRESS_SANITIZER
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(TOUCHSTONE_ADDRESS_SANITIZER)
+constexpr bool kAddressSanitizer = true;
+#else
+constexpr bool kAddressSanitizer = false;
+#endif
+
 /// The methods that take the scene, which an engine without contacts need not.
 template <int Dim>
 std::vector<MethodEntry<Dim>> tracers() {
@@ -99,6 +110,8 @@ TEST(OneProcess, EveryMethodInSeveralThreads) {
 
 /// The module of bullet_si_float has a C library of its own, which is not told of forks.
 TEST(OneProcess, ForksWhileOtherThreadsAreInAModule) {
+  if (kAddressSanitizer)
+    GTEST_SKIP() << "AddressSanitizer's allocator is not told of forks: a child of allocating threads hangs";
   using namespace std::chrono_literals;
   constexpr int kForks = 20;
   const auto& entry = find_method<3>("bullet_si_float");
@@ -113,7 +126,7 @@ TEST(OneProcess, ForksWhileOtherThreadsAreInAModule) {
   const auto inherited = entry.make(busy_scene<3>(), {});
   int same = 0;
   for (int i = 0; i < kForks && same == i; ++i)
-    same += static_cast<int>(run_isolated([&] { return trace(entry); }, 20s).text == alone);
+    same += static_cast<int>(run_isolated([&] { return trace(entry); }, 60s).text == alone);
   EXPECT_EQ(same, kForks);
   const auto child = run_isolated(
       [&] {
@@ -124,7 +137,7 @@ TEST(OneProcess, ForksWhileOtherThreadsAreInAModule) {
         }
         return text;
       },
-      20s);
+      60s);
   EXPECT_EQ(child.text, alone) << "a world from before the fork";
   done = true;
   for (auto& thread : threads) thread.join();

@@ -4,6 +4,7 @@ import math
 
 from plotting.errors import InputProblem
 
+from . import timing
 from .notes import cause, without_notes
 from .polygons import polygon_section, polygon_verdict
 from .tables import Tables, number
@@ -150,23 +151,37 @@ def matrix_section(tables):
     return "\n".join(parts)
 
 
-def timing_section(times, methods):
+def timing_rows(times, names, ours):
+    """Time and ratios of the benchmarks `names`; the last column is the implicit NCP's time over it."""
+    rows = []
+    for name in names:
+        over = f"{float(times[ours]['step_us']) / float(times[name]['step_us']):.2g}" if ours in times else ""
+        rows.append([f"`{name.removeprefix(timing.SPHERES)}`", times[name]["step_us"], times[name]["ratio"], over])
+    return rows
+
+
+def timing_section(times):
     if not times:
         return "## Time of a step\n\nNot measured: `tools/report_engines --timing build/release/baselines/step_benchmark`.\n"
-    rows = [[f"`{m}`", times[m]["step_us"], times[m]["ratio"]] for m in sorted(times) if m in methods or "_" in m]
+    spheres = [name for name in sorted(times) if name.startswith(timing.SPHERES)]
+    disc = [name for name in sorted(times) if name not in spheres]
     processors = ", ".join(sorted({row["processor"] for row in times.values()}))
-    return ("## Time of a step\n\nOne disc on a plane, h = 0.01 s, one core; median of five runs, on " + processors
-            + ". Ratios are to the LCP with ten edges. What the library prints is in the time of "
-            "`simbody_pgs`. Measured when asked "
-            "(`--timing`) and kept in `engines/step_time.csv`.\n\n" + table(["method", "time [us]", "ratio"], rows))
+    header = ["method", "time [us]", "over the LCP's", "implicit NCP's over it"]
+    text = ("## Time of a step\n\nProcessor time at h = 0.01 s, the median of five repetitions of Google Benchmark, on "
+            + processors + ". What the library prints is in the time of `simbody_pgs`. Measured when asked (`--timing`) and "
+            "kept in `engines/step_time.csv`. One disc that rolls on a plane; the LCP has ten edges:\n\n"
+            + table(header, timing_rows(times, disc, timing.OURS)))
+    if spheres:
+        text += ("\nA ball that slides on one fixed ball and rolls on another, with torsional friction, but `e_r=0` where the "
+                 "method has none:\n\n" + table(header, timing_rows(times, spheres, timing.SPHERES_OURS)))
+    return text
 
 
 def page(results, notes, times):
     """The page. @raises InputProblem if a table is missing or notes and tables do not agree"""
     tables = Tables(results)
     notes = sorted([*notes, *without_notes(tables.versions, notes)], key=lambda note: note["name"].lower())
-    known = {method for note in notes for method in note["methods"]}
     notes = [note for note in notes if set(note["methods"]) & set(tables.versions)]
     parts = [INTRODUCTION, overview(tables, notes), closed_form_section(), polygon_section(tables, notes),
-             matrix_section(tables), timing_section(times, known)]
+             matrix_section(tables), timing_section(times)]
     return "\n".join(parts + [engine_section(tables, note, times) for note in notes])

@@ -11,7 +11,11 @@ from plotting.errors import InputProblem, IoProblem
 
 FILE = "step_time.csv"
 COLUMNS = ["method", "step_us", "ratio", "processor"]
-REFERENCE = "stewart_trinkle edges=10"  # what step_benchmark takes ratios to
+SPHERES = "sphere_on_spheres "  # what the names of its rows begin with; the others are of the disc
+REFERENCE = "stewart_trinkle edges=10"  # what ratios on the disc are to
+OURS = "implicit_ncp rolling condensed"
+SPHERES_REFERENCE = SPHERES + "stewart_trinkle"
+SPHERES_OURS = SPHERES + "implicit_ncp"
 
 
 def processor():
@@ -22,7 +26,7 @@ def processor():
 
 
 def measure(program):
-    """Runs step_benchmark. @returns the bytes of the table: median time of a step on the rolling disc, [us]"""
+    """Runs step_benchmark. @returns the bytes of the table: median processor time of a step, [us]"""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "times.json"
         command = [str(program), f"--benchmark_out={out}", "--benchmark_out_format=json",
@@ -32,15 +36,15 @@ def measure(program):
             runs = json.loads(out.read_text(encoding="utf-8"))["benchmarks"]
         except (OSError, subprocess.CalledProcessError) as error:
             raise IoProblem(f"{program}: {error}") from None
-    # Wall time, because one engine's work is done in another process.
-    medians = {run["run_name"]: run["real_time"] / 1000 for run in runs if run.get("aggregate_name") == "median"}
-    if REFERENCE not in medians:
-        raise InputProblem(f"{program}: no time of '{REFERENCE}'")
+    medians = {run["run_name"]: run["cpu_time"] / 1000 for run in runs if run.get("aggregate_name") == "median"}
+    for name in (REFERENCE, SPHERES_REFERENCE):
+        if name not in medians:
+            raise InputProblem(f"{program}: no time of '{name}'")
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
     for method, microseconds in sorted(medians.items()):
-        ratio = microseconds / medians[REFERENCE]
+        ratio = microseconds / medians[SPHERES_REFERENCE if method.startswith(SPHERES) else REFERENCE]
         table.writerow([method, f"{microseconds:.3g}", f"{ratio:.2g}" if ratio < 100 else f"{ratio:.0f}", processor()])
     return text.getvalue().encode()
 

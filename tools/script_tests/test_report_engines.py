@@ -149,7 +149,13 @@ class Notes(unittest.TestCase):
 class Timing(unittest.TestCase):
     def test_a_table_that_was_never_measured_is_no_error(self):
         self.assertEqual(timing.read(Path("/nowhere/step_time.csv")), {})
-        self.assertIn("Not measured", page.timing_section({}, set()))
+        times = {name: {"step_us": us, "ratio": "1", "processor": "P"}
+                 for name, us in ((timing.OURS, "0.5"), ("box2d", "1.25"), (timing.SPHERES_OURS, "3"),
+                                  (timing.SPHERES + "ode_step", "1.2"))}
+        text = page.timing_section(times)
+        self.assertIn("| `box2d` | 1.25 | 1 | 0.4 |", text)
+        self.assertIn("| `ode_step` | 1.2 | 1 | 2.5 |", text)
+        self.assertIn("Not measured", page.timing_section({}))
 
 
 if __name__ == "__main__":

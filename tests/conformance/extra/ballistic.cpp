@@ -1,5 +1,6 @@
 #include "baselines/engines/engines.h"
 #include "baselines/engines/spatial_engine.h"
+#include "core/model/errors.h"
 
 /// An engine of one file, as small as they get: it moves bodies that touch nothing. It shows that adding an
 /// engine takes its .cpp and its row, no more: given to CMake as -D TOUCHSTONE_EXTRA_ENGINES=<this file>.
