@@ -20,9 +20,8 @@
 #include <thread>
 
 #include "baselines/isolation.h"
-#include "core/certificate/certificate.h"
-#include "core/stepper/implicit_stepper.h"
 #include "tests/support/random_steps.h"
+#include "tests/support/step_fault.h"
 
 namespace {
 
@@ -64,22 +63,10 @@ void judge(const RandomStep<Dim>& step, Result& result) {
     result.reason = fmt::format("{}, residual {:.0e}", report.reason, report.residual);
     return;
   }
-  std::vector<std::array<std::vector<double>, 2>> multipliers;
-  for (std::size_t i = 0; i < stepper.contacts().size(); ++i) {
-    const std::vector<double>& both = stepper.contact_solution(i).multipliers;
-    const auto body = static_cast<std::size_t>(stepper.contacts()[i].body_a);
-    const auto surface = make_surface(step.scene.bodies[body].shape);
-    const auto first = make_side(*surface).multipliers();
-    multipliers.push_back({std::vector<double>(both.begin(), both.begin() + first),
-                           std::vector<double>(both.begin() + first, both.end())});
-  }
-  const certificate::Checker<Dim> checker(step.scene);
-  const certificate::Step<Dim> answer{before, stepper.state(), stepper.contacts(), {}, step.h, multipliers};
-  const certificate::Report certificate = checker.certify(answer);
-  if (certificate.holds(kTolerance)) return;
-  result.verdict = certificate.holds_but_for_rounding(kTolerance) ? Verdict::certified_but_for_rounding
-                                                                  : Verdict::falsely_converged;
-  result.reason = checker.describe(certificate, answer);
+  const auto fault = step_fault(stepper, before, step.h, kTolerance);
+  if (!fault) return;
+  result.verdict = fault->is_rounding ? Verdict::certified_but_for_rounding : Verdict::falsely_converged;
+  result.reason = fault->description;
 }
 
 /// The verdict as a process tells it to the other: "2 6 stalled, residual 6e-13".
