@@ -26,35 +26,15 @@ constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a N
 constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
+constexpr int kIdle = 3;  ///< steps without a gain within what rounding explains that end a search
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
 constexpr double kChordBelow = 1e-6;
 constexpr double kChordGain = 0.03;  ///< factor of the residual that such a step must bring
 /// Smallest pivot, relative to its column, with which closest points are eliminated.
 constexpr double kRegular = 1e-8;
 constexpr double kRegularisation = 1e-9;  ///< see newton_step()
-
-/// What is tried where the search from the given start fails, in this order.
-struct Rescue {
-  int sweeps = 0;            ///< of Gauss-Seidel, for a start
-  bool from_cold = false;    ///< with closest points in the middle of flat patches, and not where they were
-  bool line_search = false;  ///< or full steps that restore lost points
-};
-constexpr std::array kRescues = {
-    Rescue{50, false, false}, Rescue{50, true, true},    Rescue{50, true, false},
-    Rescue{500, false, true}, Rescue{500, false, false}, Rescue{500, true, true},
-    Rescue{5, true, true},    Rescue{5, false, false},   Rescue{5000, true, true}};
-
-/// a + b - sqrt(a^2 + b^2), zero exactly where 0 <= a _|_ b >= 0 (Fischer 1992).
-struct FischerBurmeisterTerm {
-  FischerBurmeisterTerm(double a, double b) {
-    const double length = std::hypot(a, b);
-    value = a + b - length;
-    const double kink = 1 - std::sqrt(0.5);  // a generalised derivative where there is none
-    by_unknown = length > 0 ? 1 - a / length : kink;
-    by_row = length > 0 ? 1 - b / length : kink;
-  }
-  double value, by_unknown, by_row;
-};
+constexpr double kHold = 0.1;             ///< see damp()
+constexpr int kMonotoneAfter = 8;         ///< steps of a line search
 
 /// Grows `vector` to n entries at least; what it held may be lost.
 void make_room(Eigen::VectorXd& vector, Eigen::Index n) {
@@ -69,32 +49,61 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
   const Eigen::Index n = problem.size();
   start_.head(n) = z.head(n);
   int iterations = 0;
-  const auto attempt = [&](const Strategy& strategy) {
-    const SolveReport report = search(strategy, z);
+  const auto attempt = [&](auto&& way) {
+    const SolveReport report = way();
     iterations += report.iterations;
     return report;
   };
-  SolveReport report = attempt({.limit = std::min(kFullSteps, options_.max_iterations)});
-  if (!report.solved() && !problem.contacts().empty()) {
+  SolveReport report =
+      attempt([&] { return search({.limit = std::min(kFullSteps, options_.max_iterations)}, z); });
+  for (const Rescue& way : kRescues) {
+    if (is_acceptable(report) || problem.contacts().empty()) break;
     z.head(n) = start_.head(n);
-    report = attempt({.line_search = true, .limit = options_.max_iterations});
-  }
-  for (const Rescue& rescue : kRescues) {
-    if (report.solved() || problem.contacts().empty()) break;
-    z.head(n) = start_.head(n);
-    for (std::size_t i = 0; rescue.from_cold && i < problem.contacts().size(); ++i)
-      problem.find_points(i, z, &patch_middle<Dim>);
-    evaluate(z);
-    static_cast<void>(restore(z));
-    sweeps_.run(problem, rescue.sweeps, z);
-    evaluate(z);
-    static_cast<void>(restore(z));
-    report = attempt({.line_search = rescue.line_search,
-                      .restores = !rescue.line_search,
-                      .limit = std::min(kRescueSteps, options_.max_iterations)});
+    report = attempt([&] { return rescue(way, z); });
   }
   report.iterations = iterations;
   return report;
+}
+
+template <int Dim>
+const std::array<typename CondensedNewton<Dim>::Rescue, 15> CondensedNewton<Dim>::kRescues = {{
+    {.sweeps = 0, .search = Rescue::Search::smoothed},
+    {.sweeps = 0, .search = Rescue::Search::line_search, .damps = true},
+    {.sweeps = 50, .from_cold = true, .search = Rescue::Search::smoothed},
+    {.sweeps = 50, .search = Rescue::Search::smoothed},
+    {.sweeps = 0, .search = Rescue::Search::line_search},
+    {.sweeps = 50, .search = Rescue::Search::full_steps},
+    {.sweeps = 50, .from_cold = true, .search = Rescue::Search::line_search, .damps = true},
+    {.sweeps = 50, .from_cold = true, .search = Rescue::Search::full_steps},
+    {.sweeps = 500, .search = Rescue::Search::smoothed},
+    {.sweeps = 500, .search = Rescue::Search::line_search},
+    {.sweeps = 500, .search = Rescue::Search::full_steps},
+    {.sweeps = 500, .from_cold = true, .search = Rescue::Search::line_search, .damps = true},
+    {.sweeps = 5, .from_cold = true, .search = Rescue::Search::smoothed},
+    {.sweeps = 5, .search = Rescue::Search::full_steps},
+    {.sweeps = 5000, .from_cold = true, .search = Rescue::Search::line_search, .damps = true},
+}};
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::rescue(const Rescue& way, Eigen::VectorXd& z) {
+  for (std::size_t i = 0; way.from_cold && i < problem_->contacts().size(); ++i)
+    problem_->find_points(i, z, &patch_middle<Dim>);
+  if (way.sweeps > 0) {
+    evaluate(z);
+    static_cast<void>(restore(z));
+    sweeps_.run(*problem_, way.sweeps, z);
+    evaluate(z);
+    static_cast<void>(restore(z));
+  }
+  if (way.search == Rescue::Search::smoothed) return smoothed_search(z);
+  const bool line_search = way.search == Rescue::Search::line_search;
+  return search(
+      {.line_search = line_search,
+       .restores = !line_search,
+       .follows = way.damps,
+       .damps = way.damps,
+       .limit = std::min(line_search ? options_.max_iterations : kRescueSteps, options_.max_iterations)},
+      z);
 }
 
 template <int Dim>
@@ -138,7 +147,7 @@ template <int Dim>
 void CondensedNewton<Dim>::bind(StepProblem<Dim>& problem) {
   problem_ = &problem;
   make_room_for_problem();
-  for (Eigen::VectorXd* v : {&step_, &start_, &trial_}) make_room(*v, problem.size());
+  for (Eigen::VectorXd* v : {&step_, &start_, &trial_, &best_}) make_room(*v, problem.size());
   make_room(momentum_, problem.layout().joints());
   // A gap that a step could close, as a velocity: what p_n, an impulse over mass, is compared with.
   gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
@@ -177,17 +186,20 @@ SolveReport CondensedNewton<Dim>::search(const Strategy& strategy, Eigen::Vector
   strategy_ = strategy;
   SolveReport report;
   recent_merits_.clear();
+  if (strategy.follows) follow_points(z);
   evaluate(z);
   report.history.push(residual_);
+  const Eigen::Index n = problem_->size();
   bool factors_are_good = false;
   double before = std::numeric_limits<double>::infinity();
+  double best = before;  // residual of best_, the nearest point to a solution within what rounding explains
+  int idle = 0;
   const auto ended = [&](SolveStatus status) {
-    report.status = status;
-    report.residual = residual_;
-    report.worst_row = worst_row_;
-    report.evaluations = evaluations_;
-    report.jacobian_evaluations = factorisations_;
-    return report;
+    if (status != SolveStatus::solved && best < residual_) {
+      z.head(n) = best_.head(n);
+      evaluate(z);
+    }
+    return report_of(status, report);
   };
   while (true) {
     if (!std::isfinite(merit_) || (!strategy.line_search && residual_ > kAstray))
@@ -197,6 +209,12 @@ SolveReport CondensedNewton<Dim>::search(const Strategy& strategy, Eigen::Vector
     const bool gains = residual_ < kWorthwhile * before;
     if (residual_ <= (gains ? kTarget : 1.0) * options_.tolerance) return ended(SolveStatus::solved);
     if (report.iterations == strategy.limit) return ended(SolveStatus::iteration_limit);
+    idle = best <= options_.acceptable && residual_ > kWorthwhile * best ? idle + 1 : 0;
+    if (residual_ <= options_.acceptable && residual_ < best) {
+      best = residual_;
+      best_.head(n) = z.head(n);
+    }
+    if (idle > kIdle) return ended(SolveStatus::stalled);
     before = residual_;
     const bool chord = factors_are_good && residual_ < kChordBelow;
     if (chord) {
@@ -209,6 +227,18 @@ SolveReport CondensedNewton<Dim>::search(const Strategy& strategy, Eigen::Vector
     report.history.push(residual_);
     factors_are_good = !chord || residual_ <= kChordGain * before;
   }
+}
+
+/// What a search says of z, where it was evaluated last.
+template <int Dim>
+SolveReport CondensedNewton<Dim>::report_of(SolveStatus status, const SolveReport& search) const {
+  SolveReport report = search;
+  report.status = status;
+  report.residual = residual_;
+  report.worst_row = worst_row_;
+  report.evaluations = evaluations_;
+  report.jacobian_evaluations = factorisations_;
+  return report;
 }
 
 template <int Dim>
@@ -283,8 +313,8 @@ void CondensedNewton<Dim>::judge(Element& element, std::size_t i, Eigen::VectorX
   const double gap = block.f[block.at.normal];
   account(std::min(p, gap), in_z.normal);
   const auto term = [this](double unknown, double row) {
-    const double value =
-        strategy_.line_search ? FischerBurmeisterTerm(unknown, row).value : std::min(unknown, row);
+    const double value = strategy_.line_search ? FischerBurmeisterTerm(unknown, row, smoothing_).value
+                                               : std::min(unknown, row);
     return value * value;
   };
   merit_ += term(p, gap_weight_ * gap);
@@ -293,7 +323,7 @@ void CondensedNewton<Dim>::judge(Element& element, std::size_t i, Eigen::VectorX
     const double least = std::min(z[row], block.f[r]);
     account(least, row);
     if (!(std::abs(least) <= element.geometry_residual)) element.geometry_residual = std::abs(least);
-    merit_ += term(z[row], block.f[r]);
+    merit_ += by_active_set() ? least * least : term(z[row], block.f[r]);
   }
 }
 
@@ -305,8 +335,8 @@ void CondensedNewton<Dim>::choose_rows(Element& element, std::size_t i, const Ei
   const double p = z[in_z.normal];
   element.touching = p > gap_weight_ * block.f[block.at.normal];
   // Without load and open a contact acts on nothing: its impulse is 0 and stays 0.
-  element.loaded =
-      element.touching || p != 0 || z.template segment<kFriction>(in_z.friction).squaredNorm() != 0;
+  element.loaded = smoothing_ > 0 || element.touching || p != 0 ||
+                   z.template segment<kFriction>(in_z.friction).squaredNorm() != 0;
   element.active.resize(static_cast<std::size_t>(block.size - block.at.multipliers_1));
   for (std::size_t l = 0; l < element.active.size(); ++l) {
     const auto offset = static_cast<Eigen::Index>(l);
@@ -320,30 +350,43 @@ void CondensedNewton<Dim>::set_rows(Element& element, std::size_t i, const Eigen
                                     bool derivatives) {
   const ContactLayout& in_z = problem_->layout().contact(i);
   StepBlock<Dim>& block = element.block;
-  if (strategy_.line_search) {
-    const auto combine = [&](Eigen::Index row, double unknown, double weight) {
-      const FischerBurmeisterTerm term(unknown, weight * block.f[row]);
-      block.f[row] = term.value;
-      if (!derivatives) return;
-      block.j.row(row).head(block.size) *= weight * term.by_row;
-      block.j(row, row) += term.by_unknown;
-    };
-    combine(block.at.normal, z[in_z.normal], gap_weight_);
-    for (Eigen::Index r = block.at.multipliers_1; r < block.size; ++r)
-      combine(r, z[in_z.multipliers_1 + r - block.at.multipliers_1], 1.0);
-    return;
-  }
   const auto replace = [&](Eigen::Index row, double value) {
     block.f[row] = value;
     if (!derivatives) return;
     block.j.row(row).head(block.size).setZero();
     block.j(row, row) = 1;
   };
-  if (!element.touching) replace(block.at.normal, z[in_z.normal]);
+  if (strategy_.line_search) {
+    const auto combine = [&](Eigen::Index row, double unknown, double weight) {
+      const FischerBurmeisterTerm term(unknown, weight * block.f[row], smoothing_);
+      block.f[row] = term.value;
+      if (!derivatives) return;
+      block.j.row(row).head(block.size) *= weight * term.by_row;
+      block.j(row, row) += term.by_unknown;
+    };
+    combine(block.at.normal, z[in_z.normal], gap_weight_);
+    for (Eigen::Index r = block.at.multipliers_1; r < block.size && !by_active_set(); ++r)
+      combine(r, z[in_z.multipliers_1 + r - block.at.multipliers_1], 1.0);
+    if (!by_active_set()) return;
+  } else if (!element.touching) {
+    replace(block.at.normal, z[in_z.normal]);
+  }
   for (std::size_t l = 0; l < element.active.size(); ++l) {
     const auto offset = static_cast<Eigen::Index>(l);
     if (!element.active[l]) replace(block.at.multipliers_1 + offset, z[in_z.multipliers_1 + offset]);
   }
+}
+
+/// Where contacts are more than the motion needs their impulses are not unique, and a step that nothing but
+/// rounding ties down leads far from modes of contact that were right. This adds a multiple of the impulses'
+/// change to their rows, as in Levenberg and Marquardt's method; it goes with the root of the residual, so
+/// that what it allows of the change and what it costs in convergence both vanish at a solution.
+template <int Dim>
+void CondensedNewton<Dim>::damp(Element& element) const {
+  if (!strategy_.damps) return;
+  StepBlock<Dim>& block = element.block;
+  const double hold = kHold * std::sqrt(std::min(residual_, 1.0));
+  for (Eigen::Index r = block.at.friction; r <= block.at.normal; ++r) block.j(r, r) += hold;
 }
 
 template <int Dim>
@@ -468,6 +511,7 @@ void CondensedNewton<Dim>::condense(const Eigen::VectorXd& z) {
     choose_rows(element, i, z);
     problem_->contact_block(i, true, element.block);
     set_rows(element, i, z, true);
+    damp(element);
     list_unknowns(element);
     eliminate(element);
   }
@@ -599,12 +643,15 @@ bool CondensedNewton<Dim>::advance(bool chord, int iteration, Eigen::VectorXd& z
     if (strategy_.restores && restore(z)) evaluate(z);
     return true;
   }
+  // A line search that may go up goes around in circles among active sets.
+  if (iteration > kMonotoneAfter) recent_merits_.clear();
   if (recent_merits_.size() == kMeritMemory) recent_merits_.erase(recent_merits_.begin());
   recent_merits_.push_back(merit_);
   const double reference = *std::max_element(recent_merits_.begin(), recent_merits_.end());
   trial_.head(n) = z.head(n);
   for (double t = 1.0; t >= kShortest; t /= 2) {
     z.head(n) = trial_.head(n) + t * step_.head(n);
+    if (strategy_.follows) follow_points(z);
     evaluate(z);
     if (merit_ <= (1 - 2 * kDecrease * t) * reference) return true;
   }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/complementarity/dense_lu.h"
 #include "core/complementarity/report.h"
 #include "core/stepper/contact_sweeps.h"
+#include "core/stepper/fischer_burmeister.h"
 #include "core/stepper/reduced_system.h"
 #include "core/stepper/step_problem.h"
 
@@ -14,7 +16,8 @@ struct CondensedOptions {
   /// Solved if the natural residual of the whole step problem is at most this; > 0, in its units.
   double tolerance = 1e-13;
   int max_iterations = 100;  ///< Newton steps; >= 1
-  /// What rounding leaves is solved too, once a search has got no further; >= 0.
+  /// What rounding leaves is solved too, once a search has got no further, and no other one is tried; >= 0.
+  /// The report then says why the search ended.
   double acceptable = 0.0;
 };
 
@@ -26,11 +29,12 @@ struct CondensedOptions {
 /// Where the closest points are not determined by the bodies' poses alone (flat on flat) elimination is
 /// singular: such a contact keeps its points among what is solved together.
 ///
-/// Three searches, each from the same start, the next where the last one fails: full steps with the active
-/// set of the minimum function, which nearly always converge within a few; a line search on the merit of
-/// Fischer and Burmeister's function; and full steps again from where Gauss-Seidel sweeps lead
-/// (contact_sweeps.h), with closest points found anew where a step loses them. What is left then is for the
-/// full problem's solvers.
+/// Several searches, the next where the last one fails: full steps with the active set of the minimum
+/// function, which nearly always converge within a few; continuation in a smoothing of everything that is not
+/// differentiable (smoothed_search.cpp), which finds the active set of piles near rest, where contacts
+/// between stick and slip are many; a line search on the merit of Fischer and Burmeister's function; and all
+/// of these from where Gauss-Seidel sweeps lead (contact_sweeps.h), with closest points found anew where a
+/// step loses them. What is left then is for the full problem's solvers.
 template <int Dim>
 class CondensedNewton {
  public:
@@ -56,8 +60,28 @@ class CondensedNewton {
     /// otherwise by the active set of the minimum function, and full steps.
     bool line_search = false;
     bool restores = false;  ///< finds closest points anew where a step loses them
-    int limit = 0;          ///< of Newton steps
+    bool follows =
+        false;           ///< closest points that a trial step loses are brought after it, by follow_points()
+    bool damps = false;  ///< holds on to the contacts' impulses, see damp()
+    int limit = 0;       ///< of Newton steps
   };
+
+  /// One value of the smoothing, and how the next one follows from it.
+  struct Stage {
+    double solved = 0.0;  ///< the last smoothing whose problem was solved; 0: none yet
+    double ratio = 0.4;   ///< of the next one to it
+    int steps = 0;        ///< Newton steps spent on the current one
+  };
+
+  /// What is tried where the search from the given start fails.
+  struct Rescue {
+    enum class Search { smoothed, line_search, full_steps };
+    int sweeps = 0;          ///< of Gauss-Seidel, for a start
+    bool from_cold = false;  ///< with closest points in the middle of flat patches, and not where they were
+    Search search = Search::smoothed;
+    bool damps = false;
+  };
+  static const std::array<Rescue, 15> kRescues;  ///< in this order
 
   /// A joint at the current z.
   struct Joint {
@@ -83,11 +107,29 @@ class CondensedNewton {
   void bind(StepProblem<Dim>& problem);
   void make_room_for_problem();
   [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport rescue(const Rescue& rescue, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport smoothed_search(Eigen::VectorXd& z);
+  [[nodiscard]] bool sharpen(Stage& stage, Eigen::VectorXd& z);
+  [[nodiscard]] bool retreat(Stage& stage, Eigen::VectorXd& z);
+  void set_smoothing(double smoothing, Eigen::VectorXd& z);
+  void follow_points(Eigen::VectorXd& z);
+  void follow(std::size_t i, Eigen::VectorXd& z);
+  [[nodiscard]] double points_residual(std::size_t i, const Eigen::VectorXd& z);
+  [[nodiscard]] bool points_step(std::size_t i, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport report_of(SolveStatus status, const SolveReport& search) const;
+  [[nodiscard]] bool is_acceptable(const SolveReport& report) const {
+    return report.solved() || report.residual <= options_.acceptable;
+  }
   void evaluate(Eigen::VectorXd& z);
   void judge(Element& element, std::size_t i, Eigen::VectorXd& z);
   void account(double value, Eigen::Index row);
   void choose_rows(Element& element, std::size_t i, const Eigen::VectorXd& z);
   void set_rows(Element& element, std::size_t i, const Eigen::VectorXd& z, bool derivatives);
+  /// Whether faces and edges are chosen, and not part of the merit function's smooth terms.
+  [[nodiscard]] bool by_active_set() const {
+    return !strategy_.line_search || (strategy_.follows && smoothing_ == 0);
+  }
+  void damp(Element& element) const;
   void list_velocities(Joint& part) const;
   void list_unknowns(Element& element);
   void keep(Joint& part, Eigen::Index unknown);
@@ -114,7 +156,7 @@ class CondensedNewton {
   Eigen::VectorXd momentum_;  ///< rows of the bodies
   Eigen::VectorXd solution_;  ///< of the reduced system
   Eigen::VectorXd step_;      ///< in z
-  Eigen::VectorXd start_, trial_, scratch_, column_;
+  Eigen::VectorXd start_, trial_, best_, scratch_, column_;
   std::vector<double> row_;
   Eigen::MatrixXd body_matrix_;
   std::vector<double> recent_merits_;
@@ -123,6 +165,7 @@ class CondensedNewton {
   double merit_ = 0.0;
   double gap_weight_ = 1.0;
   Strategy strategy_;
+  double smoothing_ = 0.0;  ///< tau, an impulse over m V; 0: the problem as it is
   int evaluations_ = 0;
   int factorisations_ = 0;
 };

@@ -200,7 +200,7 @@ void friction_law_rows(const RowContext<Dim>& c) {
   const auto& state = c.state;
   const FrictionRows<Dim> rows =
       friction_rows<Dim>(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y,
-                         scaled_slip(c), state.p, state.s);
+                         scaled_slip(c), state.p, state.s, c.options.smoothing);
   c.f.template segment<n>(c.at.friction) = rows.value;
   c.f[c.at.slip] = rows.slip_value;
   if (c.jacobian == nullptr) return;

@@ -90,6 +90,7 @@ struct ContactRowOptions {
   GapFunction gap = GapFunction::workspace;
   Scale scale{};
   double h = 0.0;
+  double smoothing = 0.0;  ///< of the projection form of friction, see friction_rows()
 };
 
 /// Reads the contact's unknowns from z and evaluates both sides and the frame; `state.body` is filled by the

@@ -10,8 +10,7 @@ void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen:
   const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
   inverse_.resize(bodies);
   for (std::size_t b = 0; b < bodies; ++b) {
-    const MotionMatrix<Dim> matrix = problem.momentum_matrix(static_cast<int>(b));
-    inverse_[b] = matrix.inverse() * problem.momentum_scale(static_cast<int>(b)).asDiagonal();
+    inverse_[b] = problem.momentum_matrix(static_cast<int>(b)).inverse();
   }
   contacts_.resize(problem.contacts().size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) freeze_contact(problem, i, z);
@@ -65,7 +64,8 @@ void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::si
     if (contact.place[k] < 0) continue;
     const auto body = static_cast<std::size_t>(contact.place[k]);
     contact.wrench[k] = problem.unit_wrenches(i, k);
-    contact.response[k] = inverse_[body] * contact.wrench[k];
+    contact.response[k] =
+        inverse_[body] * problem.momentum_scale(contact.place[k]).asDiagonal() * contact.wrench[k];
     delassus += contact.wrench[k].transpose() * contact.response[k] / contact.unit;
     contact.gap_velocity -=
         contact.wrench[k].col(kFriction).dot(z.template segment<kVelocity>(kVelocity * contact.place[k])) /
@@ -95,7 +95,7 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
       for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
         if (row.place[k] < 0) continue;
         row.gradient[k] = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
-        row.response[k] = -problem.momentum_matrix(row.place[k]).inverse() *
+        row.response[k] = -inverse_[static_cast<std::size_t>(row.place[k])] *
                           block_.j.col(r).template segment<kVelocity>(block_.column[k]);
         row.constant -= row.gradient[k].dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
         denominator += row.gradient[k].dot(row.response[k]);

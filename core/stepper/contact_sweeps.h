@@ -51,7 +51,7 @@ class ContactSweeps {
   std::vector<Contact> contacts_;
   std::vector<JointRow> joints_;
   StepBlock<Dim> block_;
-  std::vector<MotionMatrix<Dim>> inverse_;  ///< of momentum_matrix(), times the row scale
+  std::vector<MotionMatrix<Dim>> inverse_;  ///< of momentum_matrix()
   std::vector<Twist<Dim>> nu_;
 };
 

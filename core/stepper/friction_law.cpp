@@ -53,15 +53,49 @@ FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<Dim>& y
   return rows;
 }
 
+/// The projection smoothed. Outside the ball of radius R it shortens d by max(1, |d| / R), the root of
+/// max(1, X) with X = |d|^2 / R^2; here the maximum is (1 + X + sqrt((1 - X)^2 + 4 e^2)) / 2 with e = tau /
+/// R, and R = mu (p + sqrt(p^2 + 4 tau^2)) / 2 is positive whatever p is. Differentiable everywhere, and the
+/// projection for tau -> 0.
+template <int Dim>
+FrictionRows<Dim> smoothed_projection(double mu, double rho, double tau, const FrictionVector<Dim>& y,
+                                      const FrictionVector<Dim>& w, double p, double s) {
+  using Rows = FrictionRows<Dim>;
+  using Square = typename Rows::Square;
+  Rows rows = projection<Dim>(mu, rho, y, w, p, s);
+  const double root = std::sqrt(p * p + 4 * tau * tau);
+  const double radius = mu * (p + root) / 2;
+  if (!(radius > 0)) return rows;
+  const FrictionVector<Dim> d = y - rho * w;
+  const double excess = d.squaredNorm() / (radius * radius);
+  const double e = tau / radius;
+  const double corner = std::sqrt((1 - excess) * (1 - excess) + 4 * e * e);
+  const double squared = (1 + excess + corner) / 2;
+  const double by_excess = (1 + (excess - 1) / corner) / 2;
+  const double shrink = 1 / std::sqrt(squared);
+  const double shrink_by_squared = -0.5 * shrink / squared;
+  const Square derivative = shrink * Square::Identity() +
+                            (2 * shrink_by_squared * by_excess / (radius * radius)) * d * d.transpose();
+  const double shrink_by_radius =
+      shrink_by_squared * (by_excess * (-2 * excess / radius) - 2 * e * e / (corner * radius));
+  const double radius_by_p = mu * (1 + p / root) / 2;
+  rows.value = y - shrink * d;
+  rows.d_y = Square::Identity() - derivative;
+  rows.d_w = rho * derivative;
+  rows.d_p = -shrink_by_radius * radius_by_p * d;
+  return rows;
+}
+
 }  // namespace
 
 template <int Dim>
 FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const FrictionVector<Dim>& active,
                                 const FrictionVector<Dim>& y, const FrictionVector<Dim>& w, double p,
-                                double s) {
+                                double s, double smoothing) {
   const FrictionVector<Dim> carried = active.cwiseProduct(y);
   FrictionRows<Dim> rows = form == FrictionForm::fritz_john ? fritz_john<Dim>(mu, carried, w, p, s)
-                                                            : projection<Dim>(mu, rho, carried, w, p, s);
+                           : smoothing > 0 ? smoothed_projection<Dim>(mu, rho, smoothing, carried, w, p, s)
+                                           : projection<Dim>(mu, rho, carried, w, p, s);
   for (int i = 0; i < FrictionRows<Dim>::n; ++i) {
     if (active[i] != 0) continue;
     rows.value[i] = y[i];
@@ -77,8 +111,10 @@ FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const 
 }
 
 template FrictionRows<2> friction_rows(FrictionForm, double, double, const FrictionVector<2>&,
-                                       const FrictionVector<2>&, const FrictionVector<2>&, double, double);
+                                       const FrictionVector<2>&, const FrictionVector<2>&, double, double,
+                                       double);
 template FrictionRows<3> friction_rows(FrictionForm, double, double, const FrictionVector<3>&,
-                                       const FrictionVector<3>&, const FrictionVector<3>&, double, double);
+                                       const FrictionVector<3>&, const FrictionVector<3>&, double, double,
+                                       double);
 
 }  // namespace touchstone

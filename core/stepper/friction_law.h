@@ -40,9 +40,12 @@ struct FrictionRows {
 /// @param rho  of the projection form, > 0, dimensionless
 /// @param active  1 for a direction that can carry friction, 0 for one whose semi-axis is 0 (there y = 0 is
 /// the row)
+/// @param smoothing  tau >= 0, in the unit of p, of the projection form: > 0 makes it differentiable
+/// everywhere, with friction of a contact that does not load or slip as well; the solutions are those of the
+/// law for tau -> 0
 template <int Dim>
 FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const FrictionVector<Dim>& active,
                                 const FrictionVector<Dim>& y, const FrictionVector<Dim>& w, double p,
-                                double s);
+                                double s, double smoothing = 0.0);
 
 }  // namespace touchstone

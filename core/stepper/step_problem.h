@@ -72,6 +72,8 @@ class StepProblem final : public MixedComplementarityProblem {
 
   void set_form(FrictionForm form);
   void set_gap(GapFunction gap) { row_options_.gap = gap; }
+  /// Smooths the projection form of friction (see friction_rows()); 0: not at all.
+  void set_smoothing(double smoothing) { row_options_.smoothing = smoothing; }
   [[nodiscard]] const Scale& scale() const { return row_options_.scale; }
 
   [[nodiscard]] Eigen::Index size() const override { return layout_.size(); }
