@@ -74,6 +74,7 @@ class CondensedNewton {
 
   void make_room_for_problem();
   [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
+  [[nodiscard]] int approach(Eigen::VectorXd& z);
   void evaluate(Eigen::VectorXd& z);
   void judge(Element& element, std::size_t i, Eigen::VectorXd& z);
   void account(double value, Eigen::Index row);
