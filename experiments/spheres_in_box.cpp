@@ -48,7 +48,7 @@ Connected connected(const std::vector<ContactImpulse<3>>& contacts, int spheres)
     if (!(contact.normal_impulse > 0)) continue;
     ++result.contacts;
     if (contact.body_a >= spheres || contact.body_b >= spheres) continue;
-    const auto [first, last] = std::minmax(root(contact.body_a), root(contact.body_b));
+    const auto [first, last] = std::minmax({root(contact.body_a), root(contact.body_b)});
     parent[static_cast<std::size_t>(last)] = first;
   }
   std::vector<long> size(static_cast<std::size_t>(spheres), 0);
