@@ -1,7 +1,7 @@
 """The one table of figures: experiment -> figure name -> function of the experiment's directory."""
 
 from . import box_on_incline, closed_forms, disc_rolling, disc_rolling_engines, ellipsoid_rolling, euler_disc
-from . import rattleback, sphere_on_spheres, sphere_spin, tippe_top
+from . import rattleback, sphere_on_spheres, sphere_spin, spheres_in_box, tippe_top
 
 EXPERIMENTS = {
     "box_on_incline": {
@@ -42,6 +42,9 @@ EXPERIMENTS = {
     },
     "rattleback": {
         "history": rattleback.history,
+    },
+    "spheres_in_box": {
+        "scaling": spheres_in_box.scaling,
     },
     "tippe_top": {
         "history": tippe_top.history,
