@@ -3,9 +3,9 @@
 // without penetration; friction and plastic impacts account for the energy. Source: the scene is ours;
 // spheres that settle in a box are the usual trial of many contacts, as in E. G. Drumwright and D. A. Shell,
 // "Extensive analysis of linear complementarity problem (LCP) solver performance on randomly generated rigid
-// body contact problems", IROS 2012. Expected: the box grows in all directions, so contacts come to about two
-// a sphere and to one island whatever n is; the time of a step, which is not in this table, is for
-// spheres_in_box_scaling.
+// body contact problems", IROS 2012. Expected: the box grows in all directions, so that where
+// the spheres have met contacts come to about two a sphere and to one island whatever n is; a larger heap
+// takes longer to meet. The time of a step, which is not in this table, is for spheres_in_box_scaling.
 
 #include "experiments/scenarios/spheres_in_box.h"
 

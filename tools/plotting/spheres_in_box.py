@@ -14,7 +14,7 @@ def scaling(directory):
     megabytes = [value / 1e6 for value in rows.numbers("memory_bytes")]
     exponent = rows.numbers("exponent")[0]
     figure, panels = style.new_figure(9.6, 4.9, 2)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.13, top=0.75, wspace=0.24)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.13, top=0.80, wspace=0.24)
     time, memory = panels[0]
     time.loglog(contacts, times, "o", color=style.BLUE, label="median of the second half of the steps", zorder=3)
     time.loglog(contacts, slowest, "^", color=style.ORANGE, markersize=5, label="slowest of them", zorder=3)
@@ -29,9 +29,10 @@ def scaling(directory):
     time.loglog(ends, [reference[1] * (c / reference[0]) ** 1.2 for c in ends], color=style.GREY,
                 linestyle=style.DASHES[1], linewidth=1.1, label="exponent 1.2, through the last")
     for n, c, t in zip(spheres, contacts, times):
-        time.annotate(f"n = {n:g}", (c, t), xytext=(6, -11), textcoords="offset points", fontsize=8)
+        time.annotate(f"n = {n:g}", (c, t), xytext=(-7, -3), textcoords="offset points", fontsize=8, ha="right")
     time.set_xlabel("contacts with an impulse")
     time.set_ylabel("processor time of a step [s]")
+    time.set_xlim(contacts[0] / 2.5, contacts[-1] * 1.5)  # room for the labels, left of their points
     time.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     memory.loglog(contacts, megabytes, "o-", color=style.GREEN)
     memory.set_xlabel("contacts with an impulse")
