@@ -11,7 +11,7 @@ export CCACHE_BASEDIR="$ROOT" CCACHE_NOHASHDIR=1
 # shellcheck disable=SC2034  # used by the scripts that source this file
 readonly EXPERIMENTS=(
   box_on_incline closed_forms disc_rolling ellipsoid_rolling euler_disc rattleback solver_comparison sphere_on_spheres
-  sphere_spin tippe_top
+  sphere_spin spheres_in_box tippe_top
 )
 
 # fail CODE MESSAGE...: a message for a person on stderr, then exit CODE.

@@ -103,6 +103,9 @@ enum class Contacts {
 };
 
 template <int Dim>
+struct Momentum;
+
+template <int Dim>
 class Checker {
  public:
   /// @param scene  must outlive the checker. @throws Unsupported for a shape without a surface
@@ -121,7 +124,7 @@ class Checker {
  private:
   using State = std::span<const BodyState<Dim>>;
 
-  void check_body(std::size_t i, const Step<Dim>& step, Report& report) const;
+  void check_body(std::size_t i, const Step<Dim>& step, const Momentum<Dim>& missing, Report& report) const;
   void check_joint(std::size_t i, const Step<Dim>& step, Report& report) const;
   void check_contact(std::size_t i, const Step<Dim>& step, Report& report) const;
   void check_frame(std::size_t i, const ContactImpulse<Dim>& c, Report& report) const;

@@ -12,15 +12,21 @@ namespace touchstone {
 
 namespace {
 
-constexpr int kFullSteps = 15;      ///< tried before anything else
-constexpr int kFinishSteps = 30;    ///< from near a solution
-constexpr int kSettlingSteps = 20;  ///< for the least of what rounding leaves
-constexpr int kRescueSteps = 60;    ///< of each rescue
-constexpr int kUndamped = 8;        ///< of those, before every other one is shortened
-constexpr double kDamping = 0.3;    ///< to this part
-constexpr double kAstray = 1e3;     ///< residual at which a search without a line search is given up
-constexpr double kRestore = 1e-3;   ///< residual of closest points above which they are found anew
-constexpr double kSpurious = 2.0;   ///< residual of points that satisfy their rows and are no closest points
+constexpr std::size_t kMany = 20;    ///< contacts above which sweeps come first
+constexpr int kRounds = 100;         ///< of sweeps on frozen geometry
+constexpr int kFewestSweeps = 100;   ///< at most in a round, at first ...
+constexpr int kMostSweeps = 1600;    ///< ... and where rounds do not halve the residual
+constexpr double kSweepGain = 0.05;  ///< of the residual: largest change of an impulse that ends a round
+constexpr double kNear = 1e-3;       ///< residual from which Newton's method goes on
+constexpr int kFullSteps = 15;       ///< tried before anything else
+constexpr int kFinishSteps = 30;     ///< from near a solution
+constexpr int kSettlingSteps = 20;   ///< for the least of what rounding leaves
+constexpr int kRescueSteps = 60;     ///< of each rescue
+constexpr int kUndamped = 8;         ///< of those, before every other one is shortened
+constexpr double kDamping = 0.3;     ///< to this part
+constexpr double kAstray = 1e3;      ///< residual at which a search without a line search is given up
+constexpr double kRestore = 1e-3;    ///< residual of closest points above which they are found anew
+constexpr double kSpurious = 2.0;    ///< residual of points that satisfy their rows and are no closest points
 constexpr std::size_t kMeritMemory = 5;  ///< of the nonmonotone line search
 constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a Newton step
 constexpr double kDecrease = 1e-4;       ///< Armijo's
@@ -54,6 +60,7 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     iterations += report.iterations;
     return report;
   };
+  if (problem.contacts().size() > kMany && problem.joints().empty()) iterations += approach(z);
   SolveReport report =
       attempt([&] { return search({.limit = std::min(kFullSteps, options_.max_iterations)}, z); });
   for (const Rescue& way : kRescues) {
@@ -140,6 +147,7 @@ SolveReport CondensedNewton<Dim>::settle(StepProblem<Dim>& problem, Eigen::Vecto
     if (residual_ < report.residual) keep();
   }
   z.head(n) = start_.head(n);
+  evaluate(z);
   return report;
 }
 
@@ -153,6 +161,33 @@ void CondensedNewton<Dim>::bind(StepProblem<Dim>& problem) {
   gap_weight_ = problem.scale().length / (problem.step_size() * problem.scale().velocity);
   evaluations_ = 0;
   factorisations_ = 0;
+}
+
+/// Many contacts: Gauss-Seidel on frozen geometry and the geometry anew, by turns, until the problem is
+/// solved or rounds are used up. Takes a time and a memory in proportion to the contacts for each sweep,
+/// where a sparse factorisation takes more than that, and finds which contacts act and slip, where Newton's
+/// method goes astray.
+/// @return  rounds
+template <int Dim>
+int CondensedNewton<Dim>::approach(Eigen::VectorXd& z) {
+  evaluate(z);
+  int round = 0;
+  int limit = kFewestSweeps;
+  while (round < kRounds && residual_ > options_.tolerance) {
+    const double before = residual_;
+    static_cast<void>(sweeps_.run_accelerated(*problem_, limit, kSweepGain * std::min(before, 1.0), z));
+    for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->find_points(i, z);
+    evaluate(z);
+    ++round;
+    limit = residual_ > 0.5 * before ? std::min(2 * limit, kMostSweeps) : std::max(limit / 2, kFewestSweeps);
+  }
+  const Eigen::Index n = problem_->size();
+  if (residual_ <= kNear) {
+    start_.head(n) = z.head(n);
+  } else {
+    z.head(n) = start_.head(n);
+  }
+  return round;
 }
 
 /// Everything that any step of this problem may need, so that the first one that needs it allocates nothing.

@@ -107,6 +107,7 @@ class CondensedNewton {
   void bind(StepProblem<Dim>& problem);
   void make_room_for_problem();
   [[nodiscard]] SolveReport search(const Strategy& strategy, Eigen::VectorXd& z);
+  [[nodiscard]] int approach(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport rescue(const Rescue& rescue, Eigen::VectorXd& z);
   [[nodiscard]] SolveReport smoothed_search(Eigen::VectorXd& z);
   [[nodiscard]] bool sharpen(Stage& stage, Eigen::VectorXd& z);

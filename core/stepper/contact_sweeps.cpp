@@ -5,8 +5,47 @@
 
 namespace touchstone {
 
+namespace {
+
+constexpr double kRise = 1.1;  ///< factor of changes at which conjugate gradients begin anew
+/// Where more contacts stick than the motion needs, some combination of impulses grows at the same rate in
+/// each sweep until one of its contacts slides: where changes stay at more than this factor of the last ones
+/// ...
+constexpr double kSteady = 0.98;
+constexpr double kGrowth = 1.05;  ///< ... the step is lengthened by this one
+
+}  // namespace
+
 template <int Dim>
 void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z) {
+  freeze(problem, z);
+  for (int round = 0; round < sweeps; ++round) sweep_all(problem, round % 2 == 0);
+  write(problem, z);
+}
+
+template <int Dim>
+int ContactSweeps<Dim>::run_accelerated(const StepProblem<Dim>& problem, int limit, double tolerance,
+                                        Eigen::VectorXd& z) {
+  freeze(problem, z);
+  for (Contact& contact : contacts_) {
+    contact.before = contact.impulse();
+    contact.direction.setZero();
+  }
+  last_change_ = 0;
+  int sweeps = 0;
+  while (sweeps < limit) {
+    sweep_all(problem, true);
+    sweep_all(problem, false);
+    sweeps += 2;
+    if (accelerate() <= tolerance) break;
+  }
+  write(problem, z);
+  return sweeps;
+}
+
+/// Geometry and gaps at z, and the velocities that its impulses lead to.
+template <int Dim>
+void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
   const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
   inverse_.resize(bodies);
   for (std::size_t b = 0; b < bodies; ++b) {
@@ -18,28 +57,27 @@ void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen:
 
   nu_.resize(bodies);
   for (std::size_t b = 0; b < bodies; ++b) nu_[b] = problem.free_velocity_of(static_cast<int>(b));
-  for (const Contact& contact : contacts_) {
-    Eigen::Matrix<double, kFriction + 1, 1> impulse;
-    impulse.template head<kFriction>() = contact.y;
-    impulse[kFriction] = contact.p;
-    push(contact, impulse);
-  }
+  for (const Contact& contact : contacts_) push(contact, contact.impulse());
   for (const JointRow& row : joints_) {
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       if (row.place[k] >= 0) nu_[static_cast<std::size_t>(row.place[k])] += row.impulse * row.response[k];
     }
   }
-  const double velocity = problem.scale().velocity;
-  for (int round = 0; round < sweeps; ++round) {
-    const bool forward = round % 2 == 0;
-    for (JointRow& row : joints_) sweep(row);
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const std::size_t at = forward ? i : contacts_.size() - 1 - i;
-      sweep(contacts_[at], problem.contacts()[at].law.mu, velocity);
-    }
-  }
+}
 
-  for (std::size_t b = 0; b < bodies; ++b)
+template <int Dim>
+void ContactSweeps<Dim>::sweep_all(const StepProblem<Dim>& problem, bool forward) {
+  const double velocity = problem.scale().velocity;
+  for (JointRow& row : joints_) sweep(row);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const std::size_t at = forward ? i : contacts_.size() - 1 - i;
+    sweep(contacts_[at], problem.contacts()[at].law.mu, velocity);
+  }
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const {
+  for (std::size_t b = 0; b < nu_.size(); ++b)
     z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(b))) = nu_[b];
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactLayout& at = problem.layout().contact(i);
@@ -76,8 +114,9 @@ void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::si
       delassus.template topLeftCorner<kFriction, kFriction>().cwiseAbs().rowwise().sum().maxCoeff();
   contact.friction_step = largest > 0 ? velocity / largest : 0.0;
   const ContactLayout& at = problem.layout().contact(i);
-  contact.y = z.template segment<kFriction>(at.friction);
   contact.p = std::max(0.0, z[at.normal]);
+  contact.y = z.template segment<kFriction>(at.friction);
+  if (contact.p == 0) contact.y.setZero();
 }
 
 template <int Dim>
@@ -106,8 +145,41 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
   }
 }
 
+/// A step of nonlinear conjugate gradients (Silcowitz, Niebe & Erleben 2010): the change that the last pair
+/// of sweeps made is taken as the residual of a symmetric system, and the last direction goes on for as long
+/// as changes fall.
+/// @return  the largest change of an impulse in that pair
 template <int Dim>
-void ContactSweeps<Dim>::push(const Contact& contact, const Eigen::Matrix<double, kFriction + 1, 1>& change) {
+double ContactSweeps<Dim>::accelerate() {
+  double change = 0;
+  double largest = 0;
+  for (const Contact& contact : contacts_) {
+    const Impulse swept = contact.impulse() - contact.before;
+    change += swept.squaredNorm();
+    largest = std::max(largest, swept.cwiseAbs().maxCoeff());
+  }
+  const bool goes_on = last_change_ > 0 && change <= kRise * last_change_;
+  double beta = goes_on ? change / last_change_ : 0.0;
+  if (beta > kSteady) beta = kGrowth;
+  last_change_ = change;
+  for (Contact& contact : contacts_) {
+    const Impulse swept = contact.impulse() - contact.before;
+    if (goes_on) {
+      const Impulse step = beta * contact.direction;
+      contact.y += step.template head<kFriction>();
+      contact.p += step[kFriction];
+      push(contact, step);
+      contact.direction = step + swept;
+    } else {
+      contact.direction.setZero();
+    }
+    contact.before = contact.impulse();
+  }
+  return largest;
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     if (contact.place[k] >= 0)
       nu_[static_cast<std::size_t>(contact.place[k])] += contact.response[k] * change;
@@ -116,17 +188,25 @@ void ContactSweeps<Dim>::push(const Contact& contact, const Eigen::Matrix<double
 
 template <int Dim>
 void ContactSweeps<Dim>::sweep(Contact& contact, double mu, double velocity) {
-  Eigen::Matrix<double, kFriction + 1, 1> speed = Eigen::Matrix<double, kFriction + 1, 1>::Zero();
+  double approach = contact.gap_velocity;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (contact.place[k] >= 0) {
+      approach += contact.wrench[k].col(kFriction).dot(nu_[static_cast<std::size_t>(contact.place[k])]) /
+                  contact.unit;
+    }
+  }
+  const double p = std::max(0.0, contact.p - contact.normal_step * approach);
+  if (p == 0 && contact.p == 0) return;  // most of those that are near: neither has friction
+  Impulse speed = Impulse::Zero();
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     if (contact.place[k] >= 0) {
       speed += contact.wrench[k].transpose() * nu_[static_cast<std::size_t>(contact.place[k])] / contact.unit;
     }
   }
-  Eigen::Matrix<double, kFriction + 1, 1> change;
-  const double p = std::max(0.0, contact.p - contact.normal_step * (contact.gap_velocity + speed[kFriction]));
   FrictionVector<Dim> y = contact.y - contact.friction_step / velocity * speed.template head<kFriction>();
   const double length = y.norm();
   if (length > mu * p) y *= mu * p / length;
+  Impulse change;
   change.template head<kFriction>() = y - contact.y;
   change[kFriction] = p - contact.p;
   contact.y = y;

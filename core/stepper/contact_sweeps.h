@@ -16,10 +16,17 @@ class ContactSweeps {
   /// @param z  on return its velocities and impulses are those found; points and multipliers are left alone
   void run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z);
 
+  /// The same with every other sweep backwards and a step of conjugate gradients after each pair, which many
+  /// contacts that carry each other's load need; until a pair changes no impulse by more than `tolerance`, in
+  /// the problem's units. Joints are swept, but not accelerated.
+  /// @return  sweeps made, at most `limit`
+  int run_accelerated(const StepProblem<Dim>& problem, int limit, double tolerance, Eigen::VectorXd& z);
+
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
   static constexpr int kFriction = Dimension<Dim>::friction;
   using Wrenches = ContactWrenches<Dim>;
+  using Impulse = Eigen::Matrix<double, kFriction + 1, 1>;  ///< (y, p)
 
   struct Contact {
     std::array<int, 2> place{-1, -1};
@@ -31,6 +38,10 @@ class ContactSweeps {
     double friction_step = 0.0;          ///< y per unit of w
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
+    Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
+    Impulse direction = Impulse::Zero();  ///< of conjugate gradients
+
+    [[nodiscard]] Impulse impulse() const { return (Impulse() << y, p).finished(); }
   };
   struct JointRow {
     std::array<int, 2> place{-1, -1};
@@ -46,10 +57,15 @@ class ContactSweeps {
   void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void sweep(Contact& contact, double mu, double velocity);
   void sweep(JointRow& row);
-  void push(const Contact& contact, const Eigen::Matrix<double, kFriction + 1, 1>& change);
+  void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
+  void sweep_all(const StepProblem<Dim>& problem, bool forward);
+  void write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const;
+  [[nodiscard]] double accelerate();
+  void push(const Contact& contact, const Impulse& change);
 
   std::vector<Contact> contacts_;
   std::vector<JointRow> joints_;
+  double last_change_ = 0.0;  ///< |change of impulses|^2 of the pair of sweeps before the last one
   StepBlock<Dim> block_;
   std::vector<MotionMatrix<Dim>> inverse_;  ///< of momentum_matrix()
   std::vector<Twist<Dim>> nu_;

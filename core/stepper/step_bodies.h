@@ -39,6 +39,10 @@ class StepBodies {
   [[nodiscard]] MotionMatrix<Dim> momentum_matrix(int place) const;
   /// What the momentum rows are multiplied with.
   [[nodiscard]] const Twist<Dim>& momentum_scale(int place) const { return inertial(place).row_scale; }
+  /// nu at the start of the step.
+  [[nodiscard]] const Twist<Dim>& start_velocity(int place) const {
+    return start_[static_cast<std::size_t>(selected_[static_cast<std::size_t>(place)])].velocity;
+  }
   /// nu' of a free step.
   [[nodiscard]] Twist<Dim> free_velocity(int place) const;
 

@@ -91,6 +91,7 @@ class StepProblem final : public MixedComplementarityProblem {
   }
   [[nodiscard]] MotionMatrix<Dim> momentum_matrix(int place) const { return bodies_.momentum_matrix(place); }
   [[nodiscard]] const Twist<Dim>& momentum_scale(int place) const { return bodies_.momentum_scale(place); }
+  [[nodiscard]] const Twist<Dim>& start_velocity_of(int place) const { return bodies_.start_velocity(place); }
   [[nodiscard]] Twist<Dim> free_velocity_of(int place) const { return bodies_.free_velocity(place); }
 
   /// Evaluates contact i at z, for contact_block().

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/contact/closest_points.h"
+#include "core/stepper/box_tree.h"
 
 namespace touchstone {
 
@@ -42,20 +43,50 @@ Energy Judge<Dim>::energy(std::span<const BodyState<Dim>> state) const {
 }
 
 template <int Dim>
+double Judge<Dim>::overlap(std::size_t i, std::size_t j, std::span<const BodyState<Dim>> state) const {
+  if (scene_.bodies[i].fixed && scene_.bodies[j].fixed) return 0;
+  if (scene_.jointed(static_cast<int>(i), static_cast<int>(j))) return 0;  // they do not collide
+  const auto ball_i = surfaces_[i]->bounding_ball();
+  const auto ball_j = surfaces_[j]->bounding_ball();
+  const double apart = (state[i].pose.to_world(ball_i.center) - state[j].pose.to_world(ball_j.center)).norm();
+  if (apart > ball_i.radius + ball_j.radius) return 0;
+  return -closest_points(*surfaces_[i], state[i].pose, *surfaces_[j], state[j].pose).gap;
+}
+
+/// Bodies whose bounding balls are apart do not overlap: of bounded bodies only those whose boxes meet are
+/// held against each other, which a tree finds in O(n log n). A body of no bounds, or nowhere, meets all.
+template <int Dim>
 double Judge<Dim>::largest_penetration(std::span<const BodyState<Dim>> state) const {
-  double deepest = 0;
+  constexpr double kRounding = 1e-9;  // of the box; far above that of the balls' distance
+  std::vector<AlignedBox<Dim>> boxes;
+  std::vector<std::size_t> bounded;
+  std::vector<std::size_t> unbounded;
   for (std::size_t i = 0; i < state.size(); ++i) {
-    for (std::size_t j = i + 1; j < state.size(); ++j) {
-      if (scene_.bodies[i].fixed && scene_.bodies[j].fixed) continue;
-      if (scene_.jointed(static_cast<int>(i), static_cast<int>(j))) continue;  // they do not collide
-      const auto ball_i = surfaces_[i]->bounding_ball();
-      const auto ball_j = surfaces_[j]->bounding_ball();
-      const double apart =
-          (state[i].pose.to_world(ball_i.center) - state[j].pose.to_world(ball_j.center)).norm();
-      if (apart > ball_i.radius + ball_j.radius) continue;
-      const auto closest = closest_points(*surfaces_[i], state[i].pose, *surfaces_[j], state[j].pose);
-      deepest = worse(deepest, -closest.gap);
+    const auto ball = surfaces_[i]->bounding_ball();
+    const Vector<Dim> center = state[i].pose.to_world(ball.center);
+    if (!std::isfinite(ball.radius) || !center.allFinite()) {
+      unbounded.push_back(i);
+      continue;
     }
+    const double extent = ball.radius + kRounding * (ball.radius + center.template lpNorm<Eigen::Infinity>());
+    bounded.push_back(i);
+    boxes.push_back({center.array() - extent, center.array() + extent});
+  }
+  double deepest = 0;
+  for (std::size_t k = 0; k < unbounded.size(); ++k) {
+    for (std::size_t other = k + 1; other < unbounded.size(); ++other)
+      deepest = worse(deepest, overlap(unbounded[k], unbounded[other], state));
+    for (const std::size_t j : bounded)
+      deepest = worse(deepest, overlap(std::min(unbounded[k], j), std::max(unbounded[k], j), state));
+  }
+  if (boxes.empty()) return deepest;
+  BoxTree<Dim> tree;
+  tree.build(boxes);
+  for (std::size_t k = 0; k < bounded.size(); ++k) {
+    tree.for_each_overlapping(boxes[k], [&](int other) {
+      const auto l = static_cast<std::size_t>(other);
+      if (k < l) deepest = worse(deepest, overlap(bounded[k], bounded[l], state));
+    });
   }
   return deepest;
 }

@@ -49,6 +49,9 @@ class Judge {
                                            std::span<const JointImpulse<Dim>> joints = {}) const;
 
  private:
+  /// Depth of the overlap of two bodies, i < j; 0 if they are apart or do not collide [m].
+  [[nodiscard]] double overlap(std::size_t i, std::size_t j, std::span<const BodyState<Dim>> state) const;
+
   const Scene<Dim>& scene_;
   certificate::Checker<Dim> checker_;
   std::vector<std::shared_ptr<const ConvexSurface<Dim>>> surfaces_;

@@ -32,6 +32,7 @@ constexpr std::array kScenarios = {
     ScenarioEntry{"sphere_on_spheres",
                   "Does a ball on two balls roll, slide and separate when it should, and without a jump?"},
     ScenarioEntry{"sphere_spin", "Does torsional friction stop a spinning sphere as it should?"},
+    ScenarioEntry{"spheres_in_box", "Does a step with many contacts get solved, whatever their number?"},
     ScenarioEntry{"spin_and_slide", "Do slip and spin share the friction ellipsoid, and end together?"},
     ScenarioEntry{"tippe_top", "Does a tippe top turn over, and keep Jellett's constant?"},
 };

@@ -72,7 +72,8 @@ Eigen::VectorXd random_start(StepProblem<Dim>& problem, Random& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   Eigen::VectorXd z = Eigen::VectorXd::Zero(problem.size());
   Eigen::VectorXd free = z;
-  problem.start_velocity(z);
+  for (int b = 0; b < problem.moving_bodies(); ++b)
+    z.template segment<Dimension<Dim>::velocity>(problem.layout().velocity(b)) = problem.start_velocity_of(b);
   problem.free_velocity(free);
   const Eigen::Index velocities = problem.layout().joints();
   const double part = unit(random);

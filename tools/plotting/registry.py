@@ -4,7 +4,7 @@ A function gives None where the table of its figure belongs to a run and is not 
 """
 
 from . import box_on_incline, closed_forms, disc_rolling, disc_rolling_engines, ellipsoid_rolling, euler_disc
-from . import rattleback, solver_comparison, sphere_on_spheres, sphere_spin, tippe_top
+from . import rattleback, solver_comparison, sphere_on_spheres, sphere_spin, spheres_in_box, tippe_top
 
 EXPERIMENTS = {
     "box_on_incline": {
@@ -49,6 +49,9 @@ EXPERIMENTS = {
     },
     "rattleback": {
         "history": rattleback.history,
+    },
+    "spheres_in_box": {
+        "scaling": spheres_in_box.scaling,
     },
     "tippe_top": {
         "history": tippe_top.history,

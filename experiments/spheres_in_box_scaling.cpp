@@ -1,0 +1,205 @@
+// Question: how do the time of a step and the memory grow with the number of contacts?
+// Success criterion: time in proportion to contacts^a with a <= 1.2, by least squares on the logarithms over
+// n = 30 ... 3000 spheres; every step solved, Eqs. 10-11 to 1e-10 by the judge. Time is the processor's, the
+// median over the second half of the steps of the fall, in which the spheres meet; contacts, those with an
+// impulse, are the mean over the same steps. Memory is the largest resident set of the process that ran that
+// n, with nothing else in it but scene, stepper and judge. The table is another one on each machine and at
+// each time.
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <numeric>
+
+#include "core/stepper/implicit_stepper.h"
+#include "experiments/harness/csv.h"
+#include "experiments/harness/files.h"
+#include "experiments/harness/judge.h"
+#include "experiments/scenarios/spheres_in_box.h"
+
+namespace {
+
+using namespace touchstone;
+
+constexpr double kStep = 0.01;           // [s]
+constexpr int kSteps = 20;               // as long as the default horizon of spheres_in_box
+constexpr int kFirstOfFit = 30;          // spheres; below, a step is too short to be timed
+constexpr long kBytesOfKilobyte = 1024;  // ru_maxrss is in KiB
+
+/// What a process tells of its n: plain data, for it goes through a pipe.
+struct Measured {
+  int spheres = 0;
+  int steps = 0;  ///< solved
+  double contacts = 0.0;
+  double listed = 0.0;
+  double iterations = 0.0;  ///< a step
+  double step_s = 0.0;
+  double slowest_s = 0.0;
+  double residual = 0.0;
+  double memory_bytes = 0.0;
+};
+
+double processor_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+Measured measure(int spheres) {
+  SpheresInBox box;
+  box.spheres = spheres;
+  const Scene<3> scene = spheres_in_box_scene(box);
+  ImplicitStepper<3> stepper(scene, {});
+  const Judge<3> judge(scene);
+  Measured result;
+  result.spheres = spheres;
+  std::vector<double> times, contacts, listed, iterations;
+  std::vector<BodyState<3>> before;
+  for (int k = 0; k < kSteps; ++k) {
+    before.assign(stepper.state().begin(), stepper.state().end());
+    const double start = processor_time();
+    const StepReport report = stepper.step(kStep);
+    const double took = processor_time() - start;
+    if (report.status != StepStatus::solved) break;
+    ++result.steps;
+    result.residual = std::max(
+        result.residual, judge.step_residual(before, stepper.state(), stepper.contacts(), kStep).largest());
+    if (k < kSteps / 2) continue;
+    times.push_back(took);
+    iterations.push_back(report.iterations);
+    listed.push_back(static_cast<double>(stepper.contacts().size()));
+    contacts.push_back(static_cast<double>(
+        std::count_if(stepper.contacts().begin(), stepper.contacts().end(),
+                      [](const ContactImpulse<3>& contact) { return contact.normal_impulse > 0; })));
+  }
+  if (!times.empty()) {
+    result.contacts = mean(contacts);
+    result.listed = mean(listed);
+    result.iterations = mean(iterations);
+    result.step_s = median(times);
+    result.slowest_s = *std::max_element(times.begin(), times.end());
+  }
+  return result;
+}
+
+/// In a process of its own, whose memory is then that n's. @return none solved if it ended early
+Measured measure_apart(int spheres) {
+  Measured result;
+  result.spheres = spheres;
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return result;
+  const pid_t child = fork();
+  if (child == 0) {
+    const Measured measured = measure(spheres);
+    const bool told = write(ends[1], &measured, sizeof measured) == static_cast<ssize_t>(sizeof measured);
+    _exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  if (child > 0) {
+    Measured told;
+    if (read(ends[0], &told, sizeof told) == static_cast<ssize_t>(sizeof told)) result = told;
+    rusage used{};
+    int status = 0;
+    if (wait4(child, &status, 0, &used) == child)
+      result.memory_bytes = static_cast<double>(used.ru_maxrss * kBytesOfKilobyte);
+  }
+  close(ends[0]);
+  return result;
+}
+
+/// Slope of log y over log x by least squares.
+double exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double a = std::log(x[i]);
+    const double b = std::log(y[i]);
+    sx += a;
+    sy += b;
+    sxx += a * a;
+    sxy += a * b;
+  }
+  const auto n = static_cast<double>(x.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2 || std::strcmp(argv[1], "--help") == 0) {
+    fmt::print(
+        "Usage: spheres_in_box_scaling DIR [N...]\n\nMeasures the time of a step and the memory of n spheres "
+        "in "
+        "a box, on a quiet machine, and writes DIR/scaling.csv.\n  N   numbers of spheres (default: 10 30 "
+        "100 "
+        "300 1000 3000)\nExit codes: 0 done, 1 a step was not solved, 2 bad usage, 3 I/O.\n");
+    return argc < 2 ? 2 : 0;
+  }
+  std::vector<int> sizes;
+  for (int i = 2; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+  if (sizes.empty()) sizes = {10, 30, 100, 300, 1000, 3000};
+  if (*std::min_element(sizes.begin(), sizes.end()) < 1) {
+    fmt::print(stderr, "N: got less than 1, allowed: positive integers\n");
+    return 2;
+  }
+  std::vector<Measured> all;
+  std::vector<double> contacts, times;
+  bool solved = true;
+  for (const int n : sizes) {
+    all.push_back(measure_apart(n));
+    const Measured& m = all.back();
+    fmt::print("n = {}: {} of {} steps solved, {:.0f} contacts, {:.4g} s a step, {:.0f} MB\n", n, m.steps,
+               kSteps, m.contacts, m.step_s, m.memory_bytes / 1e6);
+    solved = solved && m.steps == kSteps;
+    if (n >= kFirstOfFit && m.steps == kSteps) {
+      contacts.push_back(m.contacts);
+      times.push_back(m.step_s);
+    }
+  }
+  const double slope = contacts.size() > 1 ? exponent(contacts, times) : NAN;
+  fmt::print("time a step ~ contacts^{:.3f}, n >= {}\n", slope, kFirstOfFit);
+  harness::Table table{
+      {"spheres", "planned_steps", "steps", "contacts", "listed_contacts", "iterations", "step_s",
+       "slowest_step_s", "memory_bytes", "largest_residual", "exponent", "processor"},
+      {}};
+  using harness::number_cell;
+  for (const Measured& m : all) {
+    table.rows.push_back({number_cell(long{m.spheres}), number_cell(long{kSteps}), number_cell(long{m.steps}),
+                          number_cell(m.contacts), number_cell(m.listed), number_cell(m.iterations),
+                          number_cell(m.step_s), number_cell(m.slowest_s), number_cell(m.memory_bytes),
+                          number_cell(m.residual), number_cell(slope), processor()});
+  }
+  try {
+    const std::filesystem::path folder = argv[1];
+    harness::prepare_folder(folder);
+    harness::write_files({{folder / "scaling.csv", harness::format_csv(table)}});
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
+  return solved ? 0 : 1;
+}
