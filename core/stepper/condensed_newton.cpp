@@ -12,7 +12,7 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::size_t kMany = 20;    ///< contacts above which sweeps come first
+constexpr std::size_t kMany = 60;    ///< contacts above which sweeps come first
 constexpr int kRounds = 100;         ///< of sweeps on frozen geometry
 constexpr int kFewestSweeps = 100;   ///< at most in a round, at first ...
 constexpr int kMostSweeps = 1600;    ///< ... and where rounds do not halve the residual
