@@ -56,8 +56,7 @@ const BulletFloatModule& module() {
     void* handle = dlmopen(LM_ID_NEWLM, path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* entry = handle == nullptr ? nullptr : dlsym(handle, "touchstone_bullet_float_module");
     if (entry == nullptr)
-      throw std::runtime_error(
-          fmt::format("Bullet's single-precision module cannot be loaded: {}", dlerror()));
+      throw IoError(fmt::format("Bullet's single-precision module cannot be loaded: {}", dlerror()));
     return *reinterpret_cast<decltype(&touchstone_bullet_float_module)>(entry)();
   }();
   return loaded;

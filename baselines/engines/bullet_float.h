@@ -11,11 +11,11 @@ namespace touchstone::engines {
 
 /// A world of the single-precision build. Worlds may be used by several threads at once, one by one thread at
 /// a time, and a process forked meanwhile may use them on.
-/// @throws Unsupported as make_bullet_world does, std::runtime_error if the module cannot be loaded
+/// @throws Unsupported as make_bullet_world does, IoError if the module cannot be loaded
 std::unique_ptr<Engine<3>> make_bullet_float_world(const Scene<3>& scene, const BulletSettings& settings,
                                                    Motion motion);
 
-/// As bullet_version. @throws std::runtime_error also if the module cannot be loaded
+/// As bullet_version. @throws IoError also if the module cannot be loaded
 std::string bullet_float_version();
 
 }  // namespace touchstone::engines

@@ -25,7 +25,7 @@ struct BulletSettings {
 std::unique_ptr<Engine<3>> make_bullet_world(const Scene<3>& scene, const BulletSettings& settings,
                                              Motion motion);
 
-/// Of the headers, with the file that was loaded. @throws std::runtime_error if they are of two versions
+/// Of the headers, with the file that was loaded. @throws IoError if they are of two versions
 std::string bullet_version();
 
 }  // namespace touchstone::engines

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "core/model/errors.h"
+
 namespace touchstone::engines {
 
 namespace {
@@ -40,7 +42,7 @@ std::string version_and_file(std::string_view version, const std::string& file, 
   const auto mark = file.find(kMark);
   if (number == FileNumber::release && mark != std::string::npos &&
       !agree(version, std::string_view(file).substr(mark + kMark.size()))) {
-    throw std::runtime_error(
+    throw IoError(
         fmt::format("built for version {} of a library, but {} was loaded: build again with the headers of "
                     "the library that is installed",
                     version, file));

@@ -20,7 +20,7 @@ enum class FileNumber {
 };
 
 /// The version that the build saw and the file that ran, "6.12.1 (libdart.so.6.12.1)".
-/// @throws std::runtime_error naming both if the file is that of another release
+/// @throws IoError naming both if the file is that of another release
 std::string version_and_file(std::string_view version, const std::string& file, FileNumber number);
 
 }  // namespace touchstone::engines
