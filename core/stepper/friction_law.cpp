@@ -27,8 +27,8 @@ FrictionRows<Dim> fritz_john(double mu, const FrictionVector<Dim>& y, const Fric
 /// With d = y - rho w: inside the ball the row is rho w = 0 (stick); outside it is y - mu p d/|d| (slip along
 /// -w).
 template <int Dim>
-FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<Dim>& y,
-                             const FrictionVector<Dim>& w, double p, double s) {
+inline FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<Dim>& y,
+                                    const FrictionVector<Dim>& w, double p, double s) {
   using Rows = FrictionRows<Dim>;
   using Square = typename Rows::Square;
   Rows rows;
@@ -58,11 +58,19 @@ FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<Dim>& y
 /// R, and R = mu (p + sqrt(p^2 + 4 tau^2)) / 2 is positive whatever p is. Differentiable everywhere, and the
 /// projection for tau -> 0.
 template <int Dim>
-FrictionRows<Dim> smoothed_projection(double mu, double rho, double tau, const FrictionVector<Dim>& y,
-                                      const FrictionVector<Dim>& w, double p, double s) {
+[[gnu::noinline, gnu::cold]] FrictionRows<Dim> smoothed_projection(double mu, double rho, double tau,
+                                                                   const FrictionVector<Dim>& y,
+                                                                   const FrictionVector<Dim>& w, double p,
+                                                                   double s) {
   using Rows = FrictionRows<Dim>;
   using Square = typename Rows::Square;
-  Rows rows = projection<Dim>(mu, rho, y, w, p, s);
+  Rows rows;
+  const double speed = w.norm();
+  rows.slip_value = s - speed;
+  rows.slip_d_s = 1;
+  if (speed > 0) rows.slip_d_w = -w.transpose() / speed;
+  rows.value = y;  // without friction
+  rows.d_y = Square::Identity();
   const double root = std::sqrt(p * p + 4 * tau * tau);
   const double radius = mu * (p + root) / 2;
   if (!(radius > 0)) return rows;
