@@ -15,7 +15,10 @@ namespace {
 constexpr std::size_t kMany = 60;    ///< contacts above which sweeps come first
 constexpr int kRounds = 100;         ///< of sweeps on frozen geometry
 constexpr int kFewestSweeps = 100;   ///< at most in a round, at first ...
-constexpr int kMostSweeps = 1600;    ///< ... and where rounds do not halve the residual
+constexpr int kMostSweeps = 400;     ///< ... and where rounds do not gain
+constexpr int kSlowRounds = 3;       ///< without a gain, in a row, after which sweeps are given up: near rest
+                                     ///< impulses that are not unique keep them from an end
+constexpr double kRoundGain = 0.5;   ///< factor of the residual that counts as a gain of a round
 constexpr double kSweepGain = 0.05;  ///< of the residual: largest change of an impulse that ends a round
 constexpr double kNear = 1e-3;       ///< residual from which Newton's method goes on
 constexpr int kFullSteps = 15;       ///< tried before anything else
@@ -172,14 +175,17 @@ template <int Dim>
 int CondensedNewton<Dim>::approach(Eigen::VectorXd& z) {
   evaluate(z);
   int round = 0;
+  int slow = 0;  // rounds in a row without a gain
   int limit = kFewestSweeps;
-  while (round < kRounds && residual_ > options_.tolerance) {
+  while (round < kRounds && slow < kSlowRounds && residual_ > options_.tolerance) {
     const double before = residual_;
     static_cast<void>(sweeps_.run_accelerated(*problem_, limit, kSweepGain * std::min(before, 1.0), z));
     for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->find_points(i, z);
     evaluate(z);
     ++round;
-    limit = residual_ > 0.5 * before ? std::min(2 * limit, kMostSweeps) : std::max(limit / 2, kFewestSweeps);
+    const bool gains = residual_ <= kRoundGain * before;
+    slow = gains ? 0 : slow + 1;
+    limit = gains ? std::max(limit / 2, kFewestSweeps) : std::min(2 * limit, kMostSweeps);
   }
   const Eigen::Index n = problem_->size();
   if (residual_ <= kNear) {
