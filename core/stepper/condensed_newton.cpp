@@ -285,7 +285,7 @@ SolveReport CondensedNewton<Dim>::report_of(SolveStatus status, const SolveRepor
 template <int Dim>
 void CondensedNewton<Dim>::account(double value, Eigen::Index row) {
   const double size = std::abs(value);
-  if (!(size <= residual_)) {
+  if (!(size <= residual_) && !std::isnan(residual_)) {  // NaN is larger than any number, and stays
     residual_ = size;
     worst_row_ = row;
   }

@@ -212,6 +212,7 @@ template <int Dim>
 SolveReport ImplicitStepper<Dim>::follow_central_path() {
   using State = typename CentralPath<Dim>::State;
   SolveReport best;
+  best_z_ = z_.head(problem_.size());
   int iterations = 0;
   bool unbounded = false;
   bool arrived = false;
