@@ -121,7 +121,7 @@ SolveReport CondensedNewton<Dim>::finish(StepProblem<Dim>& problem, Eigen::Vecto
   bind(problem);
   const Eigen::Index n = problem.size();
   start_.head(n) = z.head(n);
-  SolveReport report = search({.limit = kFinishSteps}, z);
+  SolveReport report = search({.limit = std::min(kFinishSteps, options_.max_iterations)}, z);
   if (report.solved() || report.residual <= options_.acceptable) return report;
   z.head(n) = start_.head(n);
   return search({.line_search = true, .limit = options_.max_iterations}, z);

@@ -32,7 +32,7 @@ const std::vector<Recording>& recordings() {
       {"rattleback", 0.01, {2, 10, 50}},
       {"sphere_on_spheres", 0.01, {2, 10, 50, 100, 150}},
       {"sphere_spin", 0.01, {2, 50, 150}},
-      {"ten_bodies", 0.005, {88, 100, 112}},
+      {"ten_bodies", 0.005, {98, 100, 102}},
       {"tippe_top", 0.01, {2, 10, 50}},
   };
   return all;

@@ -126,17 +126,5 @@ TEST(DiscRollingControl, APolygonWithFrozenGeometryLosesEnergy) {
   EXPECT_GT(std::abs(judge.energy(method->state()).kinetic / start - 1), 0.1);
 }
 
-TEST(DiscRollingFailure, AStepThatIsNotSolvedLeavesTheStateAsItWas) {
-  Scene<2> scene = disc_rolling_scene();
-  scene.bodies[0].velocity << -3, 0, 0;
-  ImplicitStepper<2> stepper(scene, {.tolerance = 1e-300, .max_iterations = 1});
-  const BodyState<2> before = stepper.state()[0];
-  const StepReport report = stepper.step(0.01);
-  EXPECT_EQ(report.status, StepStatus::not_converged);
-  EXPECT_FALSE(report.reason.empty());
-  EXPECT_EQ(stepper.state()[0].velocity, before.velocity);
-  EXPECT_EQ(stepper.state()[0].pose.position, before.pose.position);
-}
-
 }  // namespace
 }  // namespace touchstone

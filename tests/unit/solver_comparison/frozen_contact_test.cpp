@@ -93,7 +93,7 @@ void expect_coulomb(const FrozenContactProblem& problem, const VectorXd& r, doub
 
 TEST(FrozenContact, StepsOfAPileAreSolvedUnderCoulombsLaw) {
   const auto read = scene_file::read_scene(SCENES "/ten_bodies.toml");
-  for (const auto& recorded : record_steps(std::get<Scene<3>>(read), 0.005, {90})) {
+  for (const auto& recorded : record_steps(std::get<Scene<3>>(read), 0.005, {98})) {
     const auto problem = FrozenContactProblem::from(recorded.problem);
     ASSERT_TRUE(problem.has_value());
     EXPECT_GE(problem->contacts(), 10);

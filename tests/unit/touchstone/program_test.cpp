@@ -156,13 +156,12 @@ TEST(Program, GivesTheSameBytesAgain) {
 TEST(Program, AStepThatFailsLeavesWhatWasComputedAndSaysWhy) {
   const Scratch scratch;
   const Finished run =
-      test::run({TOUCHSTONE_PROGRAM, "run", scene("sphere_on_spheres"), "--method", "implicit_ncp",
-                 "--option", "tolerance=1e-15", "--option", "max_iterations=1", "--step", "0.01", "--until",
-                 "1", "--out", scratch / "out"});
+      test::run({TOUCHSTONE_PROGRAM, "run", HARD_STEPS "/step_6019.toml", "--method", "implicit_ncp",
+                 "--step", "0.04", "--until", "0.4", "--out", scratch / "out"});
   EXPECT_EQ(run.code, 1);
   EXPECT_NE(run.err.find("step 1 from t = 0 s: not_converged"), std::string::npos) << run.err;
   EXPECT_EQ(listing(scratch / "out"), kFiles);
-  EXPECT_EQ(harness::read_csv(scratch / "out/trajectory.csv").rows.size(), 1u);
+  EXPECT_EQ(harness::read_csv(scratch / "out/trajectory.csv").rows.size(), 2u);  // both bodies at t = 0
 }
 
 TEST(Program, BadUsageIsExitCodeTwoAndWritesNothing) {
