@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMany = 60;    ///< contacts above which sweeps come first
 constexpr int kRounds = 100;         ///< of sweeps on frozen geometry
 constexpr int kFewestSweeps = 100;   ///< at most in a round, at first ...
-constexpr int kMostSweeps = 1600;     ///< ... and where rounds do not gain
-constexpr int kSlowRounds = 10;       ///< without a gain, in a row, after which sweeps are given up: near rest
+constexpr int kMostSweeps = 1600;    ///< ... and where rounds do not gain
+constexpr int kSlowRounds = 10;      ///< without a gain, in a row, after which sweeps are given up: near rest
                                      ///< impulses that are not unique keep them from an end
 constexpr double kRoundGain = 0.5;   ///< factor of the residual that counts as a gain of a round
 constexpr double kSweepGain = 0.05;  ///< of the residual: largest change of an impulse that ends a round
