@@ -33,6 +33,25 @@ ClosestPoints<Dim> against_plane(const ConvexSurface<Dim>& body, const Pose<Dim>
   return closest;
 }
 
+/// On the line of their centres, which must not coincide.
+template <int Dim>
+ClosestPoints<Dim> between_balls(const ConvexSurface<Dim>& ball_1, const Pose<Dim>& pose_1,
+                                 const ConvexSurface<Dim>& ball_2, const Pose<Dim>& pose_2) {
+  const auto first = ball_1.bounding_ball();
+  const auto second = ball_2.bounding_ball();
+  const Vector<Dim> center_1 = pose_1.to_world(first.center);
+  const Vector<Dim> center_2 = pose_2.to_world(second.center);
+  const Vector<Dim> apart = center_1 - center_2;
+  const double distance = apart.norm();
+  ClosestPoints<Dim> closest;
+  closest.normal = apart / distance;
+  closest.a_1 = center_1 - first.radius * closest.normal;
+  closest.a_2 = center_2 + second.radius * closest.normal;
+  closest.gap = distance - first.radius - second.radius;
+  closest.converged = closest.normal.allFinite();
+  return closest;
+}
+
 /// Tries starts for Newton's method in the order of their cost until one ends exact; keeps the best.
 template <int Dim>
 class Search {
@@ -120,6 +139,10 @@ ClosestPoints<Dim> closest_points(const ConvexSurface<Dim>& surface_1, const Pos
     std::swap(swapped.a_1, swapped.a_2);
     swapped.normal = -swapped.normal;
     return swapped;
+  }
+  if (surface_1.is_ball() && surface_2.is_ball()) {
+    const ClosestPoints<Dim> closest = between_balls(surface_1, pose_1, surface_2, pose_2);
+    if (closest.converged) return closest;
   }
   const Vector<Dim> origin = pose_2.position;
   const BodyPair<Dim> bodies{{surface_1, pose_1, origin},

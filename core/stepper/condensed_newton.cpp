@@ -63,7 +63,14 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     iterations += report.iterations;
     return report;
   };
-  if (problem.contacts().size() > kMany && problem.joints().empty()) iterations += approach(z);
+  if (problem.contacts().size() > kMany && problem.joints().empty()) {
+    iterations += approach(z);
+    if (relaxation_.residual() <= options_.tolerance) {
+      strategy_ = {};
+      evaluate(z);
+      if (residual_ <= options_.tolerance) { SolveReport r; r.iterations=iterations; return report_of(SolveStatus::solved, r); }
+    }
+  }
   SolveReport report =
       attempt([&] { return search({.limit = std::min(kFullSteps, options_.max_iterations)}, z); });
   for (const Rescue& way : kRescues) {
@@ -173,27 +180,14 @@ void CondensedNewton<Dim>::bind(StepProblem<Dim>& problem) {
 /// @return  rounds
 template <int Dim>
 int CondensedNewton<Dim>::approach(Eigen::VectorXd& z) {
-  evaluate(z);
-  int round = 0;
-  int slow = 0;  // rounds in a row without a gain
-  int limit = kFewestSweeps;
-  while (round < kRounds && slow < kSlowRounds && residual_ > options_.tolerance) {
-    const double before = residual_;
-    static_cast<void>(sweeps_.run_accelerated(*problem_, limit, kSweepGain * std::min(before, 1.0), z));
-    for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->find_points(i, z);
-    evaluate(z);
-    ++round;
-    const bool gains = residual_ <= kRoundGain * before;
-    slow = gains ? 0 : slow + 1;
-    limit = gains ? std::max(limit / 2, kFewestSweeps) : std::min(2 * limit, kMostSweeps);
-  }
+  const int rounds = relaxation_.run(*problem_, 0.5*options_.tolerance, z);
   const Eigen::Index n = problem_->size();
-  if (residual_ <= kNear) {
+  if (relaxation_.residual() <= kNear) {
     start_.head(n) = z.head(n);
   } else {
     z.head(n) = start_.head(n);
   }
-  return round;
+  return rounds;
 }
 
 /// Everything that any step of this problem may need, so that the first one that needs it allocates nothing.

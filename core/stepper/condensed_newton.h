@@ -5,6 +5,7 @@
 
 #include "core/complementarity/dense_lu.h"
 #include "core/complementarity/report.h"
+#include "core/stepper/contact_relaxation.h"
 #include "core/stepper/contact_sweeps.h"
 #include "core/stepper/fischer_burmeister.h"
 #include "core/stepper/reduced_system.h"
@@ -154,6 +155,7 @@ class CondensedNewton {
   Eigen::Index reduced_size_ = 0;
   ReducedSystem reduced_;
   ContactSweeps<Dim> sweeps_;
+  ContactRelaxation<Dim> relaxation_;
   Eigen::VectorXd momentum_;  ///< rows of the bodies
   Eigen::VectorXd solution_;  ///< of the reduced system
   Eigen::VectorXd step_;      ///< in z

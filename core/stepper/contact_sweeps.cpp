@@ -1,6 +1,6 @@
 #include "core/stepper/contact_sweeps.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 namespace touchstone {
@@ -23,40 +23,92 @@ void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen:
   write(problem, z);
 }
 
+/// Velocities are L^T nu' in here, M = L L^T: what an impulse changes of them and what it feels of them are
+/// then the same numbers.
 template <int Dim>
-int ContactSweeps<Dim>::run_accelerated(const StepProblem<Dim>& problem, int limit, double tolerance,
-                                        Eigen::VectorXd& z) {
-  freeze(problem, z);
-  for (Contact& contact : contacts_) {
-    contact.before = contact.impulse();
-    contact.direction.setZero();
+void ContactSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
+  const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
+  root_.resize(bodies);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    const int place = static_cast<int>(b);
+    const MotionMatrix<Dim> mass =
+        problem.momentum_scale(place).cwiseInverse().asDiagonal() * problem.momentum_matrix(place);
+    root_[b] = mass.llt().matrixL();
+  }
+  nu_.resize(bodies);
+  moves_.resize(bodies);
+  contacts_.resize(problem.contacts().size());
+  joints_.clear();
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::start_free(const StepProblem<Dim>& problem, std::size_t body) {
+  nu_[body] = root_[body].transpose() * problem.free_velocity_of(static_cast<int>(body));
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::write_velocity(const StepProblem<Dim>& problem, std::size_t body,
+                                        Eigen::VectorXd& z) const {
+  z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(body))) =
+      root_[body].transpose().template triangularView<Eigen::Upper>().solve(nu_[body]);
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+                                std::span<const std::size_t> bodies, const Eigen::VectorXd& z) {
+  std::fill(moves_.begin(), moves_.end(), false);
+  for (const std::size_t b : bodies) {
+    start_free(problem, b);
+    moves_[b] = true;
+  }
+  for (const std::size_t i : contacts) {
+    freeze_contact(problem, i, z);
+    const Contact& contact = contacts_[i];
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      if (contact.place[k] < 0 || !moves_[static_cast<std::size_t>(contact.place[k])]) continue;
+      nu_[static_cast<std::size_t>(contact.place[k])] += contact.wrench[k] * contact.impulse();
+    }
+  }
+}
+
+template <int Dim>
+int ContactSweeps<Dim>::run_accelerated(const StepProblem<Dim>& problem,
+                                        std::span<const std::size_t> contacts, int limit, double tolerance) {
+  const double velocity = problem.scale().velocity;
+  const auto sweep_one = [&](std::size_t i) { sweep(contacts_[i], problem.contacts()[i].law.mu, velocity); };
+  for (const std::size_t i : contacts) {
+    contacts_[i].before = contacts_[i].impulse();
+    contacts_[i].direction.setZero();
   }
   last_change_ = 0;
   int sweeps = 0;
   while (sweeps < limit) {
-    sweep_all(problem, true);
-    sweep_all(problem, false);
+    std::for_each(contacts.begin(), contacts.end(), sweep_one);
+    std::for_each(contacts.rbegin(), contacts.rend(), sweep_one);
     sweeps += 2;
-    if (accelerate() <= tolerance) break;
+    if (accelerate(contacts) <= tolerance) break;
   }
-  write(problem, z);
   return sweeps;
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+                               std::span<const std::size_t> bodies, Eigen::VectorXd& z) const {
+  for (const std::size_t b : bodies) write_velocity(problem, b, z);
+  for (const std::size_t i : contacts) write_contact(problem, i, z);
 }
 
 /// Geometry and gaps at z, and the velocities that its impulses lead to.
 template <int Dim>
 void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
-  const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
-  inverse_.resize(bodies);
-  for (std::size_t b = 0; b < bodies; ++b) {
-    inverse_[b] = problem.momentum_matrix(static_cast<int>(b)).inverse();
+  bind(problem);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    problem.evaluate_state(i, z);
+    freeze_contact(problem, i, z);
   }
-  contacts_.resize(problem.contacts().size());
-  for (std::size_t i = 0; i < contacts_.size(); ++i) freeze_contact(problem, i, z);
   freeze_joints(problem, z);
 
-  nu_.resize(bodies);
-  for (std::size_t b = 0; b < bodies; ++b) nu_[b] = problem.free_velocity_of(static_cast<int>(b));
+  for (std::size_t b = 0; b < nu_.size(); ++b) start_free(problem, b);
   for (const Contact& contact : contacts_) push(contact, contact.impulse());
   for (const JointRow& row : joints_) {
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -77,20 +129,22 @@ void ContactSweeps<Dim>::sweep_all(const StepProblem<Dim>& problem, bool forward
 
 template <int Dim>
 void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < nu_.size(); ++b)
-    z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(b))) = nu_[b];
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const ContactLayout& at = problem.layout().contact(i);
-    z.template segment<kFriction>(at.friction) = contacts_[i].y;
-    z[at.normal] = contacts_[i].p;
-  }
+  for (std::size_t b = 0; b < nu_.size(); ++b) write_velocity(problem, b, z);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) write_contact(problem, i, z);
   for (const JointRow& row : joints_) z[row.column] = row.impulse;
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::write_contact(const StepProblem<Dim>& problem, std::size_t i,
+                                       Eigen::VectorXd& z) const {
+  const ContactLayout& at = problem.layout().contact(i);
+  z.template segment<kFriction>(at.friction) = contacts_[i].y;
+  z[at.normal] = contacts_[i].p;
 }
 
 template <int Dim>
 void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::size_t i,
                                         const Eigen::VectorXd& z) {
-  problem.evaluate_state(i, z);
   Contact& contact = contacts_[i];
   const double velocity = problem.scale().velocity;
   contact.unit = problem.prepared(i).mass * velocity;
@@ -101,13 +155,11 @@ void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::si
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     if (contact.place[k] < 0) continue;
     const auto body = static_cast<std::size_t>(contact.place[k]);
-    contact.wrench[k] = problem.unit_wrenches(i, k);
-    contact.response[k] =
-        inverse_[body] * problem.momentum_scale(contact.place[k]).asDiagonal() * contact.wrench[k];
-    delassus += contact.wrench[k].transpose() * contact.response[k] / contact.unit;
+    const Wrenches wrench = problem.unit_wrenches(i, k);
+    contact.wrench[k] = root_[body].template triangularView<Eigen::Lower>().solve(wrench);
+    delassus += contact.wrench[k].transpose() * contact.wrench[k] / contact.unit;
     contact.gap_velocity -=
-        contact.wrench[k].col(kFriction).dot(z.template segment<kVelocity>(kVelocity * contact.place[k])) /
-        contact.unit;
+        wrench.col(kFriction).dot(z.template segment<kVelocity>(kVelocity * contact.place[k])) / contact.unit;
   }
   contact.normal_step = 1 / delassus(kFriction, kFriction);
   const double largest =
@@ -133,10 +185,13 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
       double denominator = 0;
       for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
         if (row.place[k] < 0) continue;
-        row.gradient[k] = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
-        row.response[k] = -inverse_[static_cast<std::size_t>(row.place[k])] *
-                          block_.j.col(r).template segment<kVelocity>(block_.column[k]);
-        row.constant -= row.gradient[k].dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
+        const auto body = static_cast<std::size_t>(row.place[k]);
+        const auto lower = root_[body].template triangularView<Eigen::Lower>();
+        const Twist<Dim> gradient = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
+        const Twist<Dim> wrench = block_.j.col(r).template segment<kVelocity>(block_.column[k]);
+        row.gradient[k] = lower.solve(gradient);
+        row.response[k] = -lower.solve(wrench.cwiseQuotient(problem.momentum_scale(row.place[k])).eval());
+        row.constant -= gradient.dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
         denominator += row.gradient[k].dot(row.response[k]);
       }
       row.step = denominator != 0 ? 1 / denominator : 0.0;
@@ -150,10 +205,11 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
 /// as changes fall.
 /// @return  the largest change of an impulse in that pair
 template <int Dim>
-double ContactSweeps<Dim>::accelerate() {
+double ContactSweeps<Dim>::accelerate(std::span<const std::size_t> contacts) {
   double change = 0;
   double largest = 0;
-  for (const Contact& contact : contacts_) {
+  for (const std::size_t i : contacts) {
+    const Contact& contact = contacts_[i];
     const Impulse swept = contact.impulse() - contact.before;
     change += swept.squaredNorm();
     largest = std::max(largest, swept.cwiseAbs().maxCoeff());
@@ -162,7 +218,8 @@ double ContactSweeps<Dim>::accelerate() {
   double beta = goes_on ? change / last_change_ : 0.0;
   if (beta > kSteady) beta = kGrowth;
   last_change_ = change;
-  for (Contact& contact : contacts_) {
+  for (const std::size_t i : contacts) {
+    Contact& contact = contacts_[i];
     const Impulse swept = contact.impulse() - contact.before;
     if (goes_on) {
       const Impulse step = beta * contact.direction;
@@ -181,8 +238,7 @@ double ContactSweeps<Dim>::accelerate() {
 template <int Dim>
 void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (contact.place[k] >= 0)
-      nu_[static_cast<std::size_t>(contact.place[k])] += contact.response[k] * change;
+    if (contact.place[k] >= 0) nu_[static_cast<std::size_t>(contact.place[k])] += contact.wrench[k] * change;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/stepper/step_problem.h"
@@ -16,11 +17,25 @@ class ContactSweeps {
   /// @param z  on return its velocities and impulses are those found; points and multipliers are left alone
   void run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z);
 
-  /// The same with every other sweep backwards and a step of conjugate gradients after each pair, which many
-  /// contacts that carry each other's load need; until a pair changes no impulse by more than `tolerance`, in
-  /// the problem's units. Joints are swept, but not accelerated.
+  // The same of some contacts among many, one call after the other; of problems without joints.
+
+  /// Makes room for the problem's contacts and bodies.
+  void bind(const StepProblem<Dim>& problem);
+  /// Freezes the geometry of `contacts` at z, where the problem evaluated them last, and sets the velocities
+  /// of `bodies` to what the impulses of all their contacts lead to.
+  /// @param contacts  all those of `bodies` among them
+  /// @param bodies  by number in the island
+  void freeze(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+              std::span<const std::size_t> bodies, const Eigen::VectorXd& z);
+  /// Sweeps over `contacts`, every other time backwards and with a step of conjugate gradients after each
+  /// pair, which many contacts that carry each other's load need; until a pair changes no impulse by more
+  /// than `tolerance`, in the problem's units.
   /// @return  sweeps made, at most `limit`
-  int run_accelerated(const StepProblem<Dim>& problem, int limit, double tolerance, Eigen::VectorXd& z);
+  int run_accelerated(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts, int limit,
+                      double tolerance);
+  /// Velocities of `bodies` and impulses of `contacts` into z.
+  void write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+             std::span<const std::size_t> bodies, Eigen::VectorXd& z) const;
 
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
@@ -30,12 +45,11 @@ class ContactSweeps {
 
   struct Contact {
     std::array<int, 2> place{-1, -1};
-    std::array<Wrenches, 2> wrench{};    ///< on each body per unit of (y, p) [N s, N m s]
-    std::array<Wrenches, 2> response{};  ///< change of each body's velocity per unit of (y, p)
-    double unit = 1.0;                   ///< of impulses, m V [N s]
-    double gap_velocity = 0.0;           ///< psi / h less what nu' adds to it [m/s]
-    double normal_step = 0.0;            ///< p per [m/s]
-    double friction_step = 0.0;          ///< y per unit of w
+    std::array<Wrenches, 2> wrench{};  ///< L^-1 of those on each body per unit of (y, p)
+    double unit = 1.0;                 ///< of impulses, m V [N s]
+    double gap_velocity = 0.0;         ///< psi / h less what nu' adds to it [m/s]
+    double normal_step = 0.0;          ///< p per [m/s]
+    double friction_step = 0.0;        ///< y per unit of w
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
     Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
@@ -45,14 +59,16 @@ class ContactSweeps {
   };
   struct JointRow {
     std::array<int, 2> place{-1, -1};
-    std::array<Twist<Dim>, 2> gradient{};  ///< of phi by nu'
-    std::array<Twist<Dim>, 2> response{};
-    double constant = 0.0;  ///< phi less what nu' adds to it
+    std::array<Twist<Dim>, 2> gradient{};  ///< of phi by L^T nu'
+    std::array<Twist<Dim>, 2> response{};  ///< of L^T nu'
+    double constant = 0.0;                 ///< phi less what nu' adds to it
     double step = 0.0;
     Eigen::Index column = 0;  ///< in z
     double impulse = 0.0;
   };
 
+  void start_free(const StepProblem<Dim>& problem, std::size_t body);
+  void write_velocity(const StepProblem<Dim>& problem, std::size_t body, Eigen::VectorXd& z) const;
   void freeze_contact(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
   void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void sweep(Contact& contact, double mu, double velocity);
@@ -60,15 +76,17 @@ class ContactSweeps {
   void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void sweep_all(const StepProblem<Dim>& problem, bool forward);
   void write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const;
-  [[nodiscard]] double accelerate();
+  [[nodiscard]] double accelerate(std::span<const std::size_t> contacts);
+  void write_contact(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) const;
   void push(const Contact& contact, const Impulse& change);
 
   std::vector<Contact> contacts_;
   std::vector<JointRow> joints_;
   double last_change_ = 0.0;  ///< |change of impulses|^2 of the pair of sweeps before the last one
   StepBlock<Dim> block_;
-  std::vector<MotionMatrix<Dim>> inverse_;  ///< of momentum_matrix()
-  std::vector<Twist<Dim>> nu_;
+  std::vector<MotionMatrix<Dim>> root_;  ///< L of each body, see bind()
+  std::vector<Twist<Dim>> nu_;           ///< L^T nu'
+  std::vector<bool> moves_;              ///< body of the last freeze()
 };
 
 }  // namespace touchstone

@@ -44,6 +44,8 @@ class ConvexSurface {
     double radius;
   };
   [[nodiscard]] virtual BoundingBall bounding_ball() const = 0;
+  /// Whether the bounding ball is the body itself.
+  [[nodiscard]] virtual bool is_ball() const { return false; }
 
   /// Not null if the surface is one plane: its outward unit normal and offset. A point on it then needs only
   /// Dim - 1 coordinates, as the paper drops a_2y for the table of its Example 1.

@@ -30,6 +30,7 @@ class PlacedSurface final : public ConvexSurface<Dim> {
     const auto ball = inner_->bounding_ball();
     return {placement_.to_world(ball.center), ball.radius};
   }
+  bool is_ball() const override { return inner_->is_ball(); }
   const HalfSpace<Dim>* plane() const override { return inner_->plane() == nullptr ? nullptr : &plane_; }
 
  private:

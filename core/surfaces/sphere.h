@@ -22,6 +22,7 @@ class SphereSurface final : public ConvexSurface<Dim> {
   typename ConvexSurface<Dim>::BoundingBall bounding_ball() const override {
     return {Vector<Dim>::Zero(), radius_};
   }
+  bool is_ball() const override { return true; }
 
  private:
   double radius_;  ///< R [m]

@@ -1,0 +1,190 @@
+#include "core/stepper/contact_relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace touchstone {
+
+namespace {
+
+constexpr double kMostEffort = 400;    ///< rounds over all contacts that a problem may cost
+constexpr double kIdleEffort = 10;     ///< of them without a gain, after which it is given up: near rest
+                                       ///< impulses that are not unique keep rounds from an end
+constexpr int kIdleRounds = 60;        ///< the same, wherever they work
+constexpr int kFewestSweeps = 100;     ///< at most in a round, at first ...
+constexpr int kMostSweeps = 1600;      ///< ... and where rounds do not gain
+constexpr double kRoundGain = 0.5;     ///< factor of the residual that counts as a gain
+constexpr double kSweepGain = 0.05;    ///< of the residual: largest change of an impulse that ends a round
+constexpr double kNearLargest = 0.01;  ///< of the largest residual: bodies from there on are chosen ...
+constexpr int kHops = 2;               ///< ... with their neighbours up to so many contacts away
+constexpr int kPatience = 2;           ///< rounds without a gain after which one that rises is shortened
+constexpr double kShortest = 0.25;     ///< part of a round that is taken at least
+constexpr int kFalls = 3;              ///< rounds in a row that fall after which they are lengthened again
+constexpr double kSpurious = 2.0;  ///< residual of points that satisfy their rows and are no closest points
+
+/// The larger of two; NaN is larger than any number.
+double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
+
+}  // namespace
+
+template <int Dim>
+int ContactRelaxation<Dim>::run(StepProblem<Dim>& problem, double tolerance, Eigen::VectorXd& z) {
+  bind(problem, z);
+  Pace pace;
+  pace.reference = residual_;
+  pace.sweeps = kFewestSweeps;
+  int rounds = 0;
+  while (residual_ > tolerance && pace.effort < kMostEffort && pace.idle_effort < kIdleEffort &&
+         pace.idle < kIdleRounds) {
+    const double before = residual_;
+    choose(std::max(tolerance, kNearLargest * before));
+    relax(problem, pace, z);
+    ++rounds;
+    const double part = static_cast<double>(touched_.size()) / static_cast<double>(contacts_.size());
+    pace.effort += part;
+    pace.falls = residual_ < before ? pace.falls + 1 : 0;
+    if (pace.falls == 0 && pace.idle >= kPatience) pace.part = std::max(pace.part / 2, kShortest);
+    if (residual_ <= kRoundGain * pace.reference) {
+      pace.reference = residual_;
+      pace.idle = 0;
+      pace.idle_effort = 0;
+      pace.sweeps = std::max(pace.sweeps / 2, kFewestSweeps);
+      pace.part = std::min(2 * pace.part, 1.0);
+    } else {
+      ++pace.idle;
+      pace.idle_effort += part;
+      pace.sweeps = std::min(2 * pace.sweeps, kMostSweeps);
+      if (pace.falls > kFalls) pace.part = std::min(2 * pace.part, 1.0);
+    }
+  }
+  return rounds;
+}
+
+/// Sweeps over the contacts that are chosen, and geometry and residuals anew.
+template <int Dim>
+void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z) {
+  const bool shortened = pace.part < 1;
+  if (shortened) start_ = z;
+  sweeps_.freeze(problem, touched_, chosen_, z);
+  static_cast<void>(
+      sweeps_.run_accelerated(problem, swept_, pace.sweeps, kSweepGain * std::min(residual_, 1.0)));
+  sweeps_.write(problem, swept_, chosen_, z);
+  if (shortened) z = start_ + pace.part * (z - start_);
+  for (const std::size_t i : touched_) {
+    problem.find_points(i, z);
+    evaluate(problem, i, z);
+  }
+  for (const std::size_t i : touched_) {
+    for (const int place : contacts_[i].place) {
+      if (place >= 0) judge(problem, place, z);
+    }
+  }
+  for (const std::size_t b : chosen_) judge(problem, static_cast<int>(b), z);
+  residual_ = 0;
+  for (const Body& body : bodies_) residual_ = larger(residual_, body.residual);
+}
+
+/// Which contacts each body has, and all residuals.
+template <int Dim>
+void ContactRelaxation<Dim>::bind(const StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  sweeps_.bind(problem);
+  bodies_.assign(static_cast<std::size_t>(problem.moving_bodies()), {});
+  contacts_.resize(problem.contacts().size());
+  first_.assign(bodies_.size() + 1, 0);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    evaluate(problem, i, z);
+    for (const int place : contacts_[i].place) {
+      if (place >= 0) ++first_[static_cast<std::size_t>(place) + 1];
+    }
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  neighbours_.resize(first_.back());
+  std::vector<std::size_t>& next = chosen_;
+  next.assign(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    for (const int place : contacts_[i].place) {
+      if (place >= 0) neighbours_[next[static_cast<std::size_t>(place)]++] = i;
+    }
+  }
+  residual_ = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    judge(problem, static_cast<int>(b), z);
+    residual_ = larger(residual_, bodies_[b].residual);
+  }
+}
+
+/// Rows of contact i at z; sigma = |w| is eliminated here.
+template <int Dim>
+void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) {
+  Contact& contact = contacts_[i];
+  const ContactLayout& in_z = problem.layout().contact(i);
+  problem.evaluate_state(i, z);
+  problem.contact_block(i, false, block_);
+  contact.place = problem.places(i);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (contact.place[k] >= 0)
+      contact.wrench[k] = block_.f.template segment<Dimension<Dim>::velocity>(block_.column[k]);
+  }
+  z[in_z.slip] -= block_.f[block_.at.slip];
+  const double p = z[in_z.normal];
+  contact.loaded = p > 0;
+  contact.residual = problem.is_spurious(i) ? kSpurious : 0.0;
+  const auto take = [&](double value) { contact.residual = larger(contact.residual, std::abs(value)); };
+  for (Eigen::Index r = block_.own; r < block_.at.normal; ++r) take(block_.f[r]);
+  take(std::min(p, block_.f[block_.at.normal]));
+  for (Eigen::Index r = block_.at.multipliers_1; r < block_.size; ++r)
+    take(std::min(z[in_z.multipliers_1 + r - block_.at.multipliers_1], block_.f[r]));
+}
+
+template <int Dim>
+void ContactRelaxation<Dim>::judge(const StepProblem<Dim>& problem, int body, const Eigen::VectorXd& z) {
+  const auto b = static_cast<std::size_t>(body);
+  Twist<Dim> momentum = problem.momentum_row(body, z);
+  double worst = 0;
+  for (const std::size_t i : contacts_of(b)) {
+    const Contact& contact = contacts_[i];
+    momentum += contact.wrench[contact.place[0] == body ? 0 : 1];
+    worst = larger(worst, contact.residual);
+  }
+  for (const double row : momentum) worst = larger(worst, std::abs(row));
+  bodies_[b].residual = worst;
+}
+
+/// Bodies whose residual is above `threshold` with their neighbours, and their contacts.
+template <int Dim>
+void ContactRelaxation<Dim>::choose(double threshold) {
+  chosen_.clear();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b].chosen = bodies_[b].residual > threshold;
+    if (bodies_[b].chosen) chosen_.push_back(b);
+  }
+  std::size_t from = 0;
+  for (int hop = 0; hop < kHops; ++hop) {
+    const std::size_t to = chosen_.size();
+    for (; from < to; ++from) {
+      for (const std::size_t i : contacts_of(chosen_[from])) {
+        if (!contacts_[i].loaded) continue;
+        for (const int place : contacts_[i].place) {
+          if (place < 0 || is_chosen(place)) continue;
+          bodies_[static_cast<std::size_t>(place)].chosen = true;
+          chosen_.push_back(static_cast<std::size_t>(place));
+        }
+      }
+    }
+  }
+  std::sort(chosen_.begin(), chosen_.end());
+  touched_.clear();
+  swept_.clear();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto [first, second] = contacts_[i].place;
+    if (!is_chosen(first) && !is_chosen(second)) continue;
+    touched_.push_back(i);
+    if ((first < 0 || is_chosen(first)) && (second < 0 || is_chosen(second))) swept_.push_back(i);
+  }
+}
+
+template class ContactRelaxation<2>;
+template class ContactRelaxation<3>;
+
+}  // namespace touchstone
