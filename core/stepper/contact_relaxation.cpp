@@ -21,7 +21,6 @@ constexpr int kHops = 2;               ///< ... with their neighbours up to so m
 constexpr int kPatience = 2;           ///< rounds without a gain after which one that rises is shortened
 constexpr double kShortest = 0.25;     ///< part of a round that is taken at least
 constexpr int kFalls = 3;              ///< rounds in a row that fall after which they are lengthened again
-constexpr double kSpurious = 2.0;  ///< residual of points that satisfy their rows and are no closest points
 
 /// The larger of two; NaN is larger than any number.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
@@ -129,7 +128,7 @@ void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size
   z[in_z.slip] -= block_.f[block_.at.slip];
   const double p = z[in_z.normal];
   contact.loaded = p > 0;
-  contact.residual = problem.is_spurious(i) ? kSpurious : 0.0;
+  contact.residual = problem.is_spurious(i) ? StepProblem<Dim>::kSpuriousResidual : 0.0;
   const auto take = [&](double value) { contact.residual = larger(contact.residual, std::abs(value)); };
   for (Eigen::Index r = block_.own; r < block_.at.normal; ++r) take(block_.f[r]);
   take(std::min(p, block_.f[block_.at.normal]));
