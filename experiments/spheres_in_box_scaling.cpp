@@ -1,6 +1,8 @@
 // Question: how do the time of a step and the memory grow with the number of contacts?
 // Success criterion: time in proportion to contacts^a with a <= 1.2, by least squares on the logarithms over
-// n = 30 ... 3000 spheres; every step solved, Eqs. 10-11 to 1e-10 by the judge. Time is the processor's, the
+// n = 30 ... 3000 spheres in a tray, where nothing but their number grows; every step solved, Eqs. 10-11 to
+// 1e-10 by the judge. In a cube heaps get deeper as well, and where they meet changes with n: its exponent is
+// told beside. Time is the processor's, the
 // median over the second half of the steps of the fall, in which the spheres meet; contacts, those with an
 // impulse, are the mean over the same steps. Memory is the largest resident set of the process that ran that
 // n, with nothing else in it but scene, stepper and judge. The table is another one on each machine and at
@@ -30,11 +32,13 @@ using namespace touchstone;
 
 constexpr double kStep = 0.01;           // [s]
 constexpr int kSteps = 20;               // as long as the default horizon of spheres_in_box
+constexpr int kLayers = 4;               // of the tray
 constexpr int kFirstOfFit = 30;          // spheres; below, a step is too short to be timed
 constexpr long kBytesOfKilobyte = 1024;  // ru_maxrss is in KiB
 
 /// What a process tells of its n: plain data, for it goes through a pipe.
 struct Measured {
+  int layers = 0;
   int spheres = 0;
   int steps = 0;  ///< solved
   double contacts = 0.0;
@@ -62,13 +66,15 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-Measured measure(int spheres) {
+Measured measure(int layers, int spheres) {
   SpheresInBox box;
   box.spheres = spheres;
+  box.layers = layers;
   const Scene<3> scene = spheres_in_box_scene(box);
   ImplicitStepper<3> stepper(scene, {});
   const Judge<3> judge(scene);
   Measured result;
+  result.layers = layers;
   result.spheres = spheres;
   std::vector<double> times, contacts, listed, iterations;
   std::vector<BodyState<3>> before;
@@ -100,14 +106,15 @@ Measured measure(int spheres) {
 }
 
 /// In a process of its own, whose memory is then that n's. @return none solved if it ended early
-Measured measure_apart(int spheres) {
+Measured measure_apart(int layers, int spheres) {
   Measured result;
+  result.layers = layers;
   result.spheres = spheres;
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return result;
   const pid_t child = fork();
   if (child == 0) {
-    const Measured measured = measure(spheres);
+    const Measured measured = measure(layers, spheres);
     const bool told = write(ends[1], &measured, sizeof measured) == static_cast<ssize_t>(sizeof measured);
     _exit(told ? 0 : 1);
   }
@@ -147,6 +154,26 @@ std::string processor() {
   return "unknown";
 }
 
+/// Rows of one kind of box, and the exponent of its times.
+void add_rows(const char* box, const std::vector<Measured>& all, harness::Table& table) {
+  std::vector<double> contacts, times;
+  for (const Measured& m : all) {
+    if (m.spheres < kFirstOfFit || m.steps != kSteps) continue;
+    contacts.push_back(m.contacts);
+    times.push_back(m.step_s);
+  }
+  const double slope = contacts.size() > 1 ? exponent(contacts, times) : NAN;
+  fmt::print("{}: time a step ~ contacts^{:.3f}, n >= {}\n", box, slope, kFirstOfFit);
+  using harness::number_cell;
+  for (const Measured& m : all) {
+    table.rows.push_back({box, number_cell(long{m.layers}), number_cell(long{m.spheres}),
+                          number_cell(long{kSteps}), number_cell(long{m.steps}), number_cell(m.contacts),
+                          number_cell(m.listed), number_cell(m.iterations), number_cell(m.step_s),
+                          number_cell(m.slowest_s), number_cell(m.memory_bytes), number_cell(m.residual),
+                          number_cell(slope), processor()});
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,7 +181,8 @@ int main(int argc, char** argv) {
     fmt::print(
         "Usage: spheres_in_box_scaling DIR [N...]\n\nMeasures the time of a step and the memory of n spheres "
         "in "
-        "a box, on a quiet machine, and writes DIR/scaling.csv.\n  N   numbers of spheres (default: 10 30 "
+        "a tray and in a cube, on a quiet machine, and writes DIR/scaling.csv.\n  N   numbers of spheres "
+        "(default: 10 30 "
         "100 "
         "300 1000 3000)\nExit codes: 0 done, 1 a step was not solved, 2 bad usage, 3 I/O.\n");
     return argc < 2 ? 2 : 0;
@@ -166,32 +194,23 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "N: got less than 1, allowed: positive integers\n");
     return 2;
   }
-  std::vector<Measured> all;
-  std::vector<double> contacts, times;
-  bool solved = true;
-  for (const int n : sizes) {
-    all.push_back(measure_apart(n));
-    const Measured& m = all.back();
-    fmt::print("n = {}: {} of {} steps solved, {:.0f} contacts, {:.4g} s a step, {:.0f} MB\n", n, m.steps,
-               kSteps, m.contacts, m.step_s, m.memory_bytes / 1e6);
-    solved = solved && m.steps == kSteps;
-    if (n >= kFirstOfFit && m.steps == kSteps) {
-      contacts.push_back(m.contacts);
-      times.push_back(m.step_s);
-    }
-  }
-  const double slope = contacts.size() > 1 ? exponent(contacts, times) : NAN;
-  fmt::print("time a step ~ contacts^{:.3f}, n >= {}\n", slope, kFirstOfFit);
   harness::Table table{
-      {"spheres", "planned_steps", "steps", "contacts", "listed_contacts", "iterations", "step_s",
-       "slowest_step_s", "memory_bytes", "largest_residual", "exponent", "processor"},
+      {"box", "layers", "spheres", "planned_steps", "steps", "contacts", "listed_contacts", "iterations",
+       "step_s", "slowest_step_s", "memory_bytes", "largest_residual", "exponent", "processor"},
       {}};
-  using harness::number_cell;
-  for (const Measured& m : all) {
-    table.rows.push_back({number_cell(long{m.spheres}), number_cell(long{kSteps}), number_cell(long{m.steps}),
-                          number_cell(m.contacts), number_cell(m.listed), number_cell(m.iterations),
-                          number_cell(m.step_s), number_cell(m.slowest_s), number_cell(m.memory_bytes),
-                          number_cell(m.residual), number_cell(slope), processor()});
+  bool solved = true;
+  for (const int layers : {kLayers, 0}) {
+    const char* const box = layers > 0 ? "tray" : "cube";
+    std::vector<Measured> all;
+    for (const int n : sizes) {
+      all.push_back(measure_apart(layers, n));
+      const Measured& m = all.back();
+      fmt::print("{}, n = {}: {} of {} steps solved, {:.0f} contacts, {:.4g} s a step, {:.0f} MB\n", box, n,
+                 m.steps, kSteps, m.contacts, m.step_s, m.memory_bytes / 1e6);
+      std::fflush(stdout);
+      solved = solved && m.steps == kSteps;
+    }
+    add_rows(box, all, table);
   }
   try {
     const std::filesystem::path folder = argv[1];

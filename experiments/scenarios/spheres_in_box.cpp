@@ -54,6 +54,7 @@ void validate(const SpheresInBox& p) {
   require(p.smallest_radius > 0, "smallest_radius", p.smallest_radius, "> 0 [m]");
   require(p.largest_radius >= p.smallest_radius, "largest_radius", p.largest_radius,
           "at least the smallest [m]");
+  require(p.layers >= 0, "layers", p.layers, "at least 0");
 }
 
 Body<3> half_space(const char* name, const Vector<3>& normal, double offset) {
@@ -67,6 +68,7 @@ Body<3> half_space(const char* name, const Vector<3>& normal, double offset) {
 }  // namespace
 
 int SpheresInBox::spheres_along_edge() const {
+  if (layers > 0) return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(spheres) / layers)));
   // n = edge^2 layers, and a layer is 1 / sqrt 2 of a place high.
   return std::max(1, static_cast<int>(std::lround(std::cbrt(spheres / std::numbers::sqrt2))));
 }

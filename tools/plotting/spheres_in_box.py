@@ -3,41 +3,55 @@
 from . import style
 from .table import read_table
 
-COLUMNS = ["spheres", "contacts", "step_s", "slowest_step_s", "memory_bytes", "exponent"]
+COLUMNS = ["box", "spheres", "contacts", "step_s", "slowest_step_s", "memory_bytes", "exponent"]
 FIRST_OF_FIT = 30  # spheres, as spheres_in_box_scaling has it
+BOXES = {"tray": (style.BLUE, "o", "tray, four layers deep"), "cube": (style.ORANGE, "s", "cube, as deep as wide")}
+
+
+def fit(rows, exponent):
+    """Ends of the line of least squares of the logarithms, of the rows that it was fitted to."""
+    points = [(c, t) for n, c, t in zip(*(rows.numbers(name) for name in ("spheres", "contacts", "step_s")))
+              if n >= FIRST_OF_FIT]
+    factor = 1.0
+    for c, t in points:
+        factor *= (t / c ** exponent) ** (1 / len(points))
+    return [(c, factor * c ** exponent) for c in (points[0][0], points[-1][0])]
 
 
 def scaling(directory):
-    rows = read_table(directory / "scaling.csv", COLUMNS).require_rows("measured times")
-    spheres, contacts = rows.numbers("spheres"), rows.numbers("contacts")
-    times, slowest = rows.numbers("step_s"), rows.numbers("slowest_step_s")
-    megabytes = [value / 1e6 for value in rows.numbers("memory_bytes")]
-    exponent = rows.numbers("exponent")[0]
+    table = read_table(directory / "scaling.csv", COLUMNS).require_rows("measured times")
     figure, panels = style.new_figure(9.6, 4.9, 2)
     figure.subplots_adjust(left=0.085, right=0.985, bottom=0.13, top=0.80, wspace=0.24)
     time, memory = panels[0]
-    time.loglog(contacts, times, "o", color=style.BLUE, label="median of the second half of the steps", zorder=3)
-    time.loglog(contacts, slowest, "^", color=style.ORANGE, markersize=5, label="slowest of them", zorder=3)
-    fitted = [(c, t) for n, c, t in zip(spheres, contacts, times) if n >= FIRST_OF_FIT]
-    reference = fitted[-1]
-    ends = [fitted[0][0], fitted[-1][0]]
-    middle = 1.0
-    for c, t in fitted:
-        middle *= (t / c ** exponent) ** (1 / len(fitted))
-    time.loglog(ends, [middle * c ** exponent for c in ends], color=style.BLUE,
-                label=f"least squares, exponent {exponent:.2f}")
-    time.loglog(ends, [reference[1] * (c / reference[0]) ** 1.2 for c in ends], color=style.GREY,
-                linestyle=style.DASHES[1], linewidth=1.1, label="exponent 1.2, through the last")
-    for n, c, t in zip(spheres, contacts, times):
-        time.annotate(f"n = {n:g}", (c, t), xytext=(-7, -3), textcoords="offset points", fontsize=8, ha="right")
+    exponents = {}
+    for box, (color, marker, label) in BOXES.items():
+        rows = table.where(box=box)
+        contacts, times = rows.numbers("contacts"), rows.numbers("step_s")
+        exponents[box] = rows.numbers("exponent")[0]
+        time.loglog(contacts, times, marker, color=color, zorder=3,
+                    label=f"{label}: exponent {exponents[box]:.2f}")
+        time.loglog(contacts, rows.numbers("slowest_step_s"), "^", color=color, markersize=4, alpha=0.5)
+        line = fit(rows, exponents[box])
+        time.loglog([c for c, _ in line], [t for _, t in line], color=color, linewidth=1.1)
+        memory.loglog(contacts, [value / 1e6 for value in rows.numbers("memory_bytes")], marker + "-", color=color,
+                      label=label)
+        if box == "tray":
+            for n, c, t in zip(rows.numbers("spheres"), contacts, times):
+                time.annotate(f"n = {n:g}", (c, t), xytext=(7, -9), textcoords="offset points",
+                              fontsize=style.LABEL_POINTS)
+            (first, start), (last, _) = line
+            time.loglog([first, last], [start, start * (last / first) ** 1.2], color=style.GREY,
+                        linestyle=style.DASHES[1], linewidth=1.1, label="exponent 1.2")
+    time.plot([], [], "^", color=style.GREY, markersize=4, label="slowest step")
     time.set_xlabel("contacts with an impulse")
     time.set_ylabel("processor time of a step [s]")
-    time.set_xlim(contacts[0] / 2.5, contacts[-1] * 1.5)  # room for the labels, left of their points
+    low, high = time.get_xlim()
+    time.set_xlim(low, 2.5 * high)  # room for the labels, right of their points
     time.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
-    memory.loglog(contacts, megabytes, "o-", color=style.GREEN)
     memory.set_xlabel("contacts with an impulse")
     memory.set_ylabel("largest resident set [MB]")
-    style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponent:.2f}",
-                   "Spheres that fall together in a box, implicit NCP, h = 0.01 s, every step solved to 1e-13. The box grows "
-                   "in all\ndirections, so that the heap is as deep as it is wide.")
+    memory.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
+    style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponents['tray']:.2f}",
+                   "Spheres that fall together in a box, implicit NCP, h = 0.01 s, every step solved to 1e-13. Median of "
+                   "the second\nhalf of the steps. A cube grows in depth too, and its spheres meet later the more they are.")
     return figure
