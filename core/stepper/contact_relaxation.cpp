@@ -16,6 +16,7 @@ constexpr int kFewestSweeps = 100;     ///< at most in a round, at first ...
 constexpr int kMostSweeps = 1600;      ///< ... and where rounds do not gain
 constexpr double kRoundGain = 0.5;     ///< factor of the residual that counts as a gain
 constexpr double kSweepGain = 0.05;    ///< of the residual: largest change of an impulse that ends a round
+constexpr int kFirstStage = 40;        ///< sweeps before they are narrowed to where impulses change
 constexpr double kNearLargest = 0.01;  ///< of the largest residual: bodies from there on are chosen ...
 constexpr int kHops = 2;               ///< ... with their neighbours up to so many contacts away
 constexpr int kPatience = 2;           ///< rounds without a gain after which one that rises is shortened
@@ -66,9 +67,9 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
   const bool shortened = pace.part < 1;
   if (shortened) start_ = z;
   sweeps_.freeze(problem, touched_, chosen_, z);
-  static_cast<void>(
-      sweeps_.run_accelerated(problem, swept_, pace.sweeps, kSweepGain * std::min(residual_, 1.0)));
-  sweeps_.write(problem, swept_, chosen_, z);
+  written_ = swept_;
+  sweep(problem, pace.sweeps, kSweepGain * std::min(residual_, 1.0));
+  sweeps_.write(problem, written_, chosen_, z);
   if (shortened) z = start_ + pace.part * (z - start_);
   for (const std::size_t i : touched_) {
     problem.find_points(i, z);
@@ -82,6 +83,33 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
   for (const std::size_t b : chosen_) judge(problem, static_cast<int>(b), z);
   residual_ = 0;
   for (const Body& body : bodies_) residual_ = larger(residual_, body.residual);
+}
+
+/// Sweeps over what is chosen, and then, longer each time, over where impulses still change.
+template <int Dim>
+void ContactRelaxation<Dim>::sweep(const StepProblem<Dim>& problem, int limit, double tolerance) {
+  int made = 0;
+  for (int stage = kFirstStage; made < limit && !swept_.empty(); stage *= 2) {
+    made += sweeps_.run_accelerated(problem, swept_, std::min(stage, limit - made), tolerance);
+    narrow(tolerance);
+  }
+}
+
+/// Leaves among the contacts to be swept those near an impulse that changed by more than `tolerance`.
+template <int Dim>
+void ContactRelaxation<Dim>::narrow(double tolerance) {
+  for (Body& body : bodies_) body.swept = false;
+  moving_.clear();
+  for (const std::size_t i : swept_) {
+    if (sweeps_.change(i) <= tolerance) continue;
+    for (const int place : contacts_[i].place) {
+      if (place < 0 || has(&Body::swept, place)) continue;
+      bodies_[static_cast<std::size_t>(place)].swept = true;
+      moving_.push_back(static_cast<std::size_t>(place));
+    }
+  }
+  spread(&Body::swept, moving_);
+  std::erase_if(swept_, [&](std::size_t i) { return !have(&Body::swept, contacts_[i]); });
 }
 
 /// Which contacts each body has, and all residuals.
@@ -158,28 +186,35 @@ void ContactRelaxation<Dim>::choose(double threshold) {
     bodies_[b].chosen = bodies_[b].residual > threshold;
     if (bodies_[b].chosen) chosen_.push_back(b);
   }
-  std::size_t from = 0;
-  for (int hop = 0; hop < kHops; ++hop) {
-    const std::size_t to = chosen_.size();
-    for (; from < to; ++from) {
-      for (const std::size_t i : contacts_of(chosen_[from])) {
-        if (!contacts_[i].loaded) continue;
-        for (const int place : contacts_[i].place) {
-          if (place < 0 || is_chosen(place)) continue;
-          bodies_[static_cast<std::size_t>(place)].chosen = true;
-          chosen_.push_back(static_cast<std::size_t>(place));
-        }
-      }
-    }
-  }
+  spread(&Body::chosen, chosen_);
   std::sort(chosen_.begin(), chosen_.end());
   touched_.clear();
   swept_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const auto [first, second] = contacts_[i].place;
-    if (!is_chosen(first) && !is_chosen(second)) continue;
+    const Contact& contact = contacts_[i];
+    if (!has(&Body::chosen, contact.place[0]) && !has(&Body::chosen, contact.place[1])) continue;
     touched_.push_back(i);
-    if ((first < 0 || is_chosen(first)) && (second < 0 || is_chosen(second))) swept_.push_back(i);
+    if (have(&Body::chosen, contact)) swept_.push_back(i);
+  }
+}
+
+/// Marks the neighbours of `bodies`, which are marked, and lists them: those up to kHops loaded contacts
+/// away.
+template <int Dim>
+void ContactRelaxation<Dim>::spread(bool Body::*mark, std::vector<std::size_t>& bodies) {
+  std::size_t from = 0;
+  for (int hop = 0; hop < kHops; ++hop) {
+    const std::size_t to = bodies.size();
+    for (; from < to; ++from) {
+      for (const std::size_t i : contacts_of(bodies[from])) {
+        if (!contacts_[i].loaded) continue;
+        for (const int place : contacts_[i].place) {
+          if (place < 0 || has(mark, place)) continue;
+          bodies_[static_cast<std::size_t>(place)].*mark = true;
+          bodies.push_back(static_cast<std::size_t>(place));
+        }
+      }
+    }
   }
 }
 

@@ -12,8 +12,8 @@ namespace touchstone {
 /// anew. No matrix is factorised, so that work and memory of a round go with the contacts.
 ///
 /// A round works where the problem is not solved yet: on the bodies whose residual is near the largest, and
-/// their neighbours. Contacts are solved here in a few rounds and there, where they wedge, in hundreds, which
-/// then cost what those few contacts cost.
+/// their neighbours; and its sweeps go on where impulses still change. Contacts are solved here in a few
+/// sweeps and there, where they wedge, in thousands, which then cost what those few contacts cost.
 ///
 /// Of problems without joints. Not every problem is solved: near rest, where impulses are not unique, rounds
 /// may gain nothing any more.
@@ -37,6 +37,7 @@ class ContactRelaxation {
   struct Body {
     double residual = 0.0;  ///< of its momentum and of its contacts
     bool chosen = false;    ///< for this round
+    bool swept = false;     ///< still, in this round
   };
 
   /// How rounds go.
@@ -52,11 +53,20 @@ class ContactRelaxation {
 
   void bind(const StepProblem<Dim>& problem, Eigen::VectorXd& z);
   void relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z);
+  void sweep(const StepProblem<Dim>& problem, int limit, double tolerance);
+  void narrow(double tolerance);
   void evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
   void judge(const StepProblem<Dim>& problem, int body, const Eigen::VectorXd& z);
   void choose(double threshold);
-  [[nodiscard]] bool is_chosen(int place) const {
-    return place >= 0 && bodies_[static_cast<std::size_t>(place)].chosen;
+  void spread(bool Body::*mark, std::vector<std::size_t>& bodies);
+  /// Whether a body is marked; false of a fixed one.
+  [[nodiscard]] bool has(bool Body::*mark, int place) const {
+    return place >= 0 && bodies_[static_cast<std::size_t>(place)].*mark;
+  }
+  /// Whether all bodies of a contact that move are marked.
+  [[nodiscard]] bool have(bool Body::*mark, const Contact& contact) const {
+    return (contact.place[0] < 0 || has(mark, contact.place[0])) &&
+           (contact.place[1] < 0 || has(mark, contact.place[1]));
   }
   [[nodiscard]] std::span<const std::size_t> contacts_of(std::size_t body) const {
     return {neighbours_.data() + first_[body], first_[body + 1] - first_[body]};
@@ -68,8 +78,11 @@ class ContactRelaxation {
   std::vector<Body> bodies_;
   std::vector<std::size_t> first_, neighbours_;  ///< contacts of each body, body after body
   std::vector<std::size_t> chosen_;              ///< bodies of this round
-  std::vector<std::size_t> swept_;               ///< contacts all of whose bodies are chosen
-  std::vector<std::size_t> touched_;             ///< contacts of which one is
+  std::vector<std::size_t> swept_;    ///< contacts all of whose bodies are chosen; later, of those,
+                                      ///< the ones near impulses that still change
+  std::vector<std::size_t> written_;  ///< the former
+  std::vector<std::size_t> moving_;   ///< bodies of those whose impulses still change
+  std::vector<std::size_t> touched_;  ///< contacts of which one is
   double residual_ = 0.0;
   Eigen::VectorXd start_;  ///< of the round
 };

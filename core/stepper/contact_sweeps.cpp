@@ -209,10 +209,11 @@ double ContactSweeps<Dim>::accelerate(std::span<const std::size_t> contacts) {
   double change = 0;
   double largest = 0;
   for (const std::size_t i : contacts) {
-    const Contact& contact = contacts_[i];
+    Contact& contact = contacts_[i];
     const Impulse swept = contact.impulse() - contact.before;
     change += swept.squaredNorm();
-    largest = std::max(largest, swept.cwiseAbs().maxCoeff());
+    contact.change = swept.cwiseAbs().maxCoeff();
+    largest = std::max(largest, contact.change);
   }
   const bool goes_on = last_change_ > 0 && change <= kRise * last_change_;
   double beta = goes_on ? change / last_change_ : 0.0;

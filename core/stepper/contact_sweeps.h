@@ -33,6 +33,8 @@ class ContactSweeps {
   /// @return  sweeps made, at most `limit`
   int run_accelerated(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts, int limit,
                       double tolerance);
+  /// Largest change of an impulse of contact i in the last pair of sweeps over it.
+  [[nodiscard]] double change(std::size_t i) const { return contacts_[i].change; }
   /// Velocities of `bodies` and impulses of `contacts` into z.
   void write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
              std::span<const std::size_t> bodies, Eigen::VectorXd& z) const;
@@ -54,6 +56,7 @@ class ContactSweeps {
     double p = 0.0;
     Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
     Impulse direction = Impulse::Zero();  ///< of conjugate gradients
+    double change = 0.0;                  ///< largest of an impulse in the last pair of sweeps
 
     [[nodiscard]] Impulse impulse() const { return (Impulse() << y, p).finished(); }
   };

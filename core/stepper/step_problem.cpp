@@ -326,7 +326,8 @@ void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindCloses
   const std::array<Pose<Dim>, 2> pose = {bodies_.pose(pair.body_1, origin, z),
                                          bodies_.pose(pair.body_2, origin, z)};
   const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
-  set_normal_estimate(i, closest.normal);
+  // The direction of t stays while it can, whatever the law's own does: friction in z is told in it.
+  prepared_[i].reference = usable_reference(closest.normal, prepared_[i].reference);
   set_points(i, closest.a_1, closest.a_2, z);
   set_multipliers(i, pose, closest, z);
 }
