@@ -1,6 +1,6 @@
 #include "core/stepper/contact_sweeps.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace touchstone {
@@ -14,6 +14,19 @@ constexpr double kRise = 1.1;  ///< factor of changes at which conjugate gradien
 constexpr double kSteady = 0.98;
 constexpr double kGrowth = 1.05;  ///< ... the step is lengthened by this one
 
+constexpr std::array<std::size_t, 2> kSides = {0, 1};
+
+/// What point_velocity() and lever() are for, without their matrices: these lines are where sweeps spend
+/// time.
+Vector<2> turning(const Angular<2>& omega, const Vector<2>& r) {
+  return {-omega[0] * r.y(), omega[0] * r.x()};
+}
+Vector<3> turning(const Angular<3>& omega, const Vector<3>& r) { return omega.cross(r); }
+Angular<2> moment(const Vector<2>& r, const Vector<2>& force) {
+  return Angular<2>(r.x() * force.y() - r.y() * force.x());
+}
+Angular<3> moment(const Vector<3>& r, const Vector<3>& force) { return r.cross(force); }
+
 }  // namespace
 
 template <int Dim>
@@ -23,51 +36,33 @@ void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen:
   write(problem, z);
 }
 
-/// Velocities are L^T nu' in here, M = L L^T: what an impulse changes of them and what it feels of them are
-/// then the same numbers.
 template <int Dim>
 void ContactSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
-  const auto bodies = static_cast<std::size_t>(problem.moving_bodies());
-  root_.resize(bodies);
-  for (std::size_t b = 0; b < bodies; ++b) {
+  bodies_.resize(static_cast<std::size_t>(problem.moving_bodies()));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const int place = static_cast<int>(b);
-    const MotionMatrix<Dim> mass =
-        problem.momentum_scale(place).cwiseInverse().asDiagonal() * problem.momentum_matrix(place);
-    root_[b] = mass.llt().matrixL();
+    const MotionMatrix<Dim> matrix = problem.momentum_matrix(place);
+    const Twist<Dim>& scale = problem.momentum_scale(place);
+    bodies_[b].inverse_mass = scale[0] / matrix(0, 0);
+    bodies_[b].inverse_inertia =
+        scale[Dim] * matrix.template bottomRightCorner<kAngular, kAngular>().inverse();
   }
-  nu_.resize(bodies);
-  moves_.resize(bodies);
   contacts_.resize(problem.contacts().size());
+  courses_.resize(contacts_.size());
   joints_.clear();
-}
-
-template <int Dim>
-void ContactSweeps<Dim>::start_free(const StepProblem<Dim>& problem, std::size_t body) {
-  nu_[body] = root_[body].transpose() * problem.free_velocity_of(static_cast<int>(body));
-}
-
-template <int Dim>
-void ContactSweeps<Dim>::write_velocity(const StepProblem<Dim>& problem, std::size_t body,
-                                        Eigen::VectorXd& z) const {
-  z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(body))) =
-      root_[body].transpose().template triangularView<Eigen::Upper>().solve(nu_[body]);
 }
 
 template <int Dim>
 void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
                                 std::span<const std::size_t> bodies, const Eigen::VectorXd& z) {
-  std::fill(moves_.begin(), moves_.end(), false);
+  for (Body& body : bodies_) body.moves = false;
   for (const std::size_t b : bodies) {
-    start_free(problem, b);
-    moves_[b] = true;
+    bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
+    bodies_[b].moves = true;
   }
   for (const std::size_t i : contacts) {
     freeze_contact(problem, i, z);
-    const Contact& contact = contacts_[i];
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-      if (contact.place[k] < 0 || !moves_[static_cast<std::size_t>(contact.place[k])]) continue;
-      nu_[static_cast<std::size_t>(contact.place[k])] += contact.wrench[k] * contact.impulse();
-    }
+    push(contacts_[i], contacts_[i].impulse(), true);
   }
 }
 
@@ -76,10 +71,7 @@ int ContactSweeps<Dim>::run_accelerated(const StepProblem<Dim>& problem,
                                         std::span<const std::size_t> contacts, int limit, double tolerance) {
   const double velocity = problem.scale().velocity;
   const auto sweep_one = [&](std::size_t i) { sweep(contacts_[i], problem.contacts()[i].law.mu, velocity); };
-  for (const std::size_t i : contacts) {
-    contacts_[i].before = contacts_[i].impulse();
-    contacts_[i].direction.setZero();
-  }
+  for (const std::size_t i : contacts) courses_[i] = {.before = contacts_[i].impulse()};
   last_change_ = 0;
   int sweeps = 0;
   while (sweeps < limit) {
@@ -95,24 +87,25 @@ template <int Dim>
 void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
                                std::span<const std::size_t> bodies, Eigen::VectorXd& z) const {
   for (const std::size_t b : bodies) write_velocity(problem, b, z);
-  for (const std::size_t i : contacts) write_contact(problem, i, z);
+  for (const std::size_t i : contacts) write_impulse(problem, i, z);
 }
 
 /// Geometry and gaps at z, and the velocities that its impulses lead to.
 template <int Dim>
 void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
   bind(problem);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     problem.evaluate_state(i, z);
     freeze_contact(problem, i, z);
+    push(contacts_[i], contacts_[i].impulse());
   }
   freeze_joints(problem, z);
-
-  for (std::size_t b = 0; b < nu_.size(); ++b) start_free(problem, b);
-  for (const Contact& contact : contacts_) push(contact, contact.impulse());
   for (const JointRow& row : joints_) {
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-      if (row.place[k] >= 0) nu_[static_cast<std::size_t>(row.place[k])] += row.impulse * row.response[k];
+    for (const std::size_t k : kSides) {
+      if (row.place[k] >= 0)
+        bodies_[static_cast<std::size_t>(row.place[k])].nu += row.impulse * row.response[k];
     }
   }
 }
@@ -129,13 +122,19 @@ void ContactSweeps<Dim>::sweep_all(const StepProblem<Dim>& problem, bool forward
 
 template <int Dim>
 void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const {
-  for (std::size_t b = 0; b < nu_.size(); ++b) write_velocity(problem, b, z);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) write_contact(problem, i, z);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) write_velocity(problem, b, z);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) write_impulse(problem, i, z);
   for (const JointRow& row : joints_) z[row.column] = row.impulse;
 }
 
 template <int Dim>
-void ContactSweeps<Dim>::write_contact(const StepProblem<Dim>& problem, std::size_t i,
+void ContactSweeps<Dim>::write_velocity(const StepProblem<Dim>& problem, std::size_t body,
+                                        Eigen::VectorXd& z) const {
+  z.template segment<kVelocity>(problem.layout().velocity(static_cast<int>(body))) = bodies_[body].nu;
+}
+
+template <int Dim>
+void ContactSweeps<Dim>::write_impulse(const StepProblem<Dim>& problem, std::size_t i,
                                        Eigen::VectorXd& z) const {
   const ContactLayout& at = problem.layout().contact(i);
   z.template segment<kFriction>(at.friction) = contacts_[i].y;
@@ -146,25 +145,42 @@ template <int Dim>
 void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::size_t i,
                                         const Eigen::VectorXd& z) {
   Contact& contact = contacts_[i];
+  const ContactState<Dim>& state = problem.state(i);
   const double velocity = problem.scale().velocity;
   contact.unit = problem.prepared(i).mass * velocity;
+  contact.semi_axes = problem.prepared(i).semi_axes;
   contact.place = problem.places(i);
-  contact.gap_velocity = problem.separation(i) / problem.step_size();
-  Eigen::Matrix<double, kFriction + 1, kFriction + 1> delassus;
-  delassus.setZero();
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+  contact.normal = state.frame.normal;
+  contact.tangents = state.frame.tangents;
+  // How velocities answer to an impulse at the contact and to a moment about its normal.
+  Matrix<Dim> response = Matrix<Dim>::Zero();
+  double turn = 0;
+  Vector<Dim> moving = Vector<Dim>::Zero();  // velocity of body 1 against body 2 at z
+  for (const std::size_t k : kSides) {
+    contact.arm[k] = state.side[k].arm;
     if (contact.place[k] < 0) continue;
-    const auto body = static_cast<std::size_t>(contact.place[k]);
-    const Wrenches wrench = problem.unit_wrenches(i, k);
-    contact.wrench[k] = root_[body].template triangularView<Eigen::Lower>().solve(wrench);
-    delassus += contact.wrench[k].transpose() * contact.wrench[k] / contact.unit;
-    contact.gap_velocity -=
-        wrench.col(kFriction).dot(z.template segment<kVelocity>(kVelocity * contact.place[k])) / contact.unit;
+    const Body& body = bodies_[static_cast<std::size_t>(contact.place[k])];
+    const auto arm = lever(contact.arm[k]);
+    response.diagonal().array() += body.inverse_mass;
+    response += arm * body.inverse_inertia * arm.transpose();
+    if constexpr (Dim == 3) turn += contact.normal.dot(body.inverse_inertia * contact.normal);
+    const Vector<Dim> point = point_velocity<Dim>(
+        z.template segment<kVelocity>(problem.layout().velocity(contact.place[k])), contact.arm[k]);
+    moving += (k == 0 ? 1 : -1) * point;
   }
-  contact.normal_step = 1 / delassus(kFriction, kFriction);
-  const double largest =
-      delassus.template topLeftCorner<kFriction, kFriction>().cwiseAbs().rowwise().sum().maxCoeff();
-  contact.friction_step = largest > 0 ? velocity / largest : 0.0;
+  contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.normal.dot(moving);
+  contact.normal_step = 1 / (contact.unit * contact.normal.dot(response * contact.normal));
+  double largest = 0;  // sum of a row of the friction's own matrix
+  const Eigen::Matrix<double, kTangent, kTangent> along =
+      contact.semi_axes.template head<kTangent>().asDiagonal() *
+      (contact.tangents.transpose() * response * contact.tangents) *
+      contact.semi_axes.template head<kTangent>().asDiagonal();
+  largest = along.cwiseAbs().rowwise().sum().maxCoeff();
+  if constexpr (Dim == 3) {
+    const double spin = contact.semi_axes[2] * turn;
+    largest = std::max(largest, contact.semi_axes[2] * spin);
+  }
+  contact.friction_step = largest > 0 ? velocity / (contact.unit * largest) : 0.0;
   const ContactLayout& at = problem.layout().contact(i);
   contact.p = std::max(0.0, z[at.normal]);
   contact.y = z.template segment<kFriction>(at.friction);
@@ -183,15 +199,16 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
       row.impulse = z[row.column];
       row.constant = block_.f[r];
       double denominator = 0;
-      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      for (const std::size_t k : kSides) {
         if (row.place[k] < 0) continue;
-        const auto body = static_cast<std::size_t>(row.place[k]);
-        const auto lower = root_[body].template triangularView<Eigen::Lower>();
-        const Twist<Dim> gradient = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
-        const Twist<Dim> wrench = block_.j.col(r).template segment<kVelocity>(block_.column[k]);
-        row.gradient[k] = lower.solve(gradient);
-        row.response[k] = -lower.solve(wrench.cwiseQuotient(problem.momentum_scale(row.place[k])).eval());
-        row.constant -= gradient.dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
+        const Body& body = bodies_[static_cast<std::size_t>(row.place[k])];
+        row.gradient[k] = block_.j.row(r).template segment<kVelocity>(block_.column[k]).transpose();
+        const Twist<Dim> wrench = -block_.j.col(r)
+                                       .template segment<kVelocity>(block_.column[k])
+                                       .cwiseQuotient(problem.momentum_scale(row.place[k]));
+        row.response[k] << body.inverse_mass * wrench.template head<Dim>(),
+            body.inverse_inertia * wrench.template tail<kAngular>();
+        row.constant -= row.gradient[k].dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
         denominator += row.gradient[k].dot(row.response[k]);
       }
       row.step = denominator != 0 ? 1 / denominator : 0.0;
@@ -209,11 +226,11 @@ double ContactSweeps<Dim>::accelerate(std::span<const std::size_t> contacts) {
   double change = 0;
   double largest = 0;
   for (const std::size_t i : contacts) {
-    Contact& contact = contacts_[i];
-    const Impulse swept = contact.impulse() - contact.before;
+    Course& course = courses_[i];
+    const Impulse swept = contacts_[i].impulse() - course.before;
     change += swept.squaredNorm();
-    contact.change = swept.cwiseAbs().maxCoeff();
-    largest = std::max(largest, contact.change);
+    course.change = swept.cwiseAbs().maxCoeff();
+    largest = std::max(largest, course.change);
   }
   const bool goes_on = last_change_ > 0 && change <= kRise * last_change_;
   double beta = goes_on ? change / last_change_ : 0.0;
@@ -221,46 +238,76 @@ double ContactSweeps<Dim>::accelerate(std::span<const std::size_t> contacts) {
   last_change_ = change;
   for (const std::size_t i : contacts) {
     Contact& contact = contacts_[i];
-    const Impulse swept = contact.impulse() - contact.before;
+    Course& course = courses_[i];
+    const Impulse swept = contact.impulse() - course.before;
     if (goes_on) {
-      const Impulse step = beta * contact.direction;
+      const Impulse step = beta * course.direction;
       contact.y += step.template head<kFriction>();
       contact.p += step[kFriction];
       push(contact, step);
-      contact.direction = step + swept;
+      course.direction = step + swept;
     } else {
-      contact.direction.setZero();
+      course.direction.setZero();
     }
-    contact.before = contact.impulse();
+    course.before = contact.impulse();
   }
   return largest;
 }
 
+/// Velocity of body 1 against body 2 at the contact, and how it turns against it.
 template <int Dim>
-void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (contact.place[k] >= 0) nu_[static_cast<std::size_t>(contact.place[k])] += contact.wrench[k] * change;
+Twist<Dim> ContactSweeps<Dim>::relative_velocity(const Contact& contact) const {
+  Twist<Dim> relative = Twist<Dim>::Zero();
+  for (const std::size_t k : kSides) {
+    if (contact.place[k] < 0) continue;
+    const Twist<Dim>& nu = bodies_[static_cast<std::size_t>(contact.place[k])].nu;
+    const Angular<Dim> omega = nu.template tail<kAngular>();
+    const Vector<Dim> velocity = nu.template head<Dim>() + turning(omega, contact.arm[k]);
+    if (k == 0) {
+      relative.template head<Dim>() = velocity;
+      relative.template tail<kAngular>() = omega;
+    } else {
+      relative.template head<Dim>() -= velocity;
+      relative.template tail<kAngular>() -= omega;
+    }
+  }
+  return relative;
+}
+
+/// E v_f of Eq. 5.
+template <int Dim>
+FrictionVector<Dim> ContactSweeps<Dim>::slip(const Contact& contact, const Twist<Dim>& velocity) const {
+  FrictionVector<Dim> w;
+  w.template head<kTangent>() = contact.tangents.transpose() * velocity.template head<Dim>();
+  if constexpr (Dim == 3) w[2] = contact.normal.dot(velocity.template tail<3>());
+  return contact.semi_axes.cwiseProduct(w);
+}
+
+/// Adds what a change of a contact's impulses does to its bodies' velocities.
+template <int Dim>
+void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change, bool only_moving) {
+  const FrictionVector<Dim> friction = contact.semi_axes.cwiseProduct(change.template head<kFriction>());
+  const Vector<Dim> force = contact.unit * (contact.tangents * friction.template head<kTangent>() +
+                                            change[kFriction] * contact.normal);
+  for (const std::size_t k : kSides) {
+    if (contact.place[k] < 0) continue;
+    Body& body = bodies_[static_cast<std::size_t>(contact.place[k])];
+    if (only_moving && !body.moves) continue;
+    Angular<Dim> torque = moment(contact.arm[k], force);
+    if constexpr (Dim == 3) torque += contact.unit * friction[2] * contact.normal;
+    const double sign = k == 0 ? 1.0 : -1.0;
+    body.nu.template head<Dim>() += sign * body.inverse_mass * force;
+    body.nu.template tail<kAngular>() += sign * (body.inverse_inertia * torque);
   }
 }
 
 template <int Dim>
 void ContactSweeps<Dim>::sweep(Contact& contact, double mu, double velocity) {
-  double approach = contact.gap_velocity;
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (contact.place[k] >= 0) {
-      approach += contact.wrench[k].col(kFriction).dot(nu_[static_cast<std::size_t>(contact.place[k])]) /
-                  contact.unit;
-    }
-  }
+  const Twist<Dim> relative = relative_velocity(contact);
+  const double approach = contact.gap_velocity + contact.normal.dot(relative.template head<Dim>());
   const double p = std::max(0.0, contact.p - contact.normal_step * approach);
   if (p == 0 && contact.p == 0) return;  // most of those that are near: neither has friction
-  Impulse speed = Impulse::Zero();
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (contact.place[k] >= 0) {
-      speed += contact.wrench[k].transpose() * nu_[static_cast<std::size_t>(contact.place[k])] / contact.unit;
-    }
-  }
-  FrictionVector<Dim> y = contact.y - contact.friction_step / velocity * speed.template head<kFriction>();
+  FrictionVector<Dim> y = contact.y - contact.friction_step / velocity * slip(contact, relative);
   const double length = y.norm();
   if (length > mu * p) y *= mu * p / length;
   Impulse change;
@@ -274,13 +321,13 @@ void ContactSweeps<Dim>::sweep(Contact& contact, double mu, double velocity) {
 template <int Dim>
 void ContactSweeps<Dim>::sweep(JointRow& row) {
   double phi = row.constant;
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (row.place[k] >= 0) phi += row.gradient[k].dot(nu_[static_cast<std::size_t>(row.place[k])]);
+  for (const std::size_t k : kSides) {
+    if (row.place[k] >= 0) phi += row.gradient[k].dot(bodies_[static_cast<std::size_t>(row.place[k])].nu);
   }
   const double change = -row.step * phi;
   row.impulse += change;
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    if (row.place[k] >= 0) nu_[static_cast<std::size_t>(row.place[k])] += change * row.response[k];
+  for (const std::size_t k : kSides) {
+    if (row.place[k] >= 0) bodies_[static_cast<std::size_t>(row.place[k])].nu += change * row.response[k];
   }
 }
 

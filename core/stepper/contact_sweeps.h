@@ -34,62 +34,76 @@ class ContactSweeps {
   int run_accelerated(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts, int limit,
                       double tolerance);
   /// Largest change of an impulse of contact i in the last pair of sweeps over it.
-  [[nodiscard]] double change(std::size_t i) const { return contacts_[i].change; }
+  [[nodiscard]] double change(std::size_t i) const { return courses_[i].change; }
   /// Velocities of `bodies` and impulses of `contacts` into z.
   void write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
              std::span<const std::size_t> bodies, Eigen::VectorXd& z) const;
 
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
+  static constexpr int kTangent = Dimension<Dim>::tangent;
   static constexpr int kFriction = Dimension<Dim>::friction;
-  using Wrenches = ContactWrenches<Dim>;
+  static constexpr int kAngular = Dimension<Dim>::angular;
   using Impulse = Eigen::Matrix<double, kFriction + 1, 1>;  ///< (y, p)
 
+  struct Body {
+    Twist<Dim> nu = Twist<Dim>::Zero();
+    double inverse_mass = 0.0;  ///< [1/kg]
+    Eigen::Matrix<double, kAngular, kAngular> inverse_inertia =
+        Eigen::Matrix<double, kAngular, kAngular>::Zero();  ///< [1/(kg m^2)]
+    bool moves = false;                                     ///< in the last freeze()
+  };
   struct Contact {
     std::array<int, 2> place{-1, -1};
-    std::array<Wrenches, 2> wrench{};  ///< L^-1 of those on each body per unit of (y, p)
+    Vector<Dim> normal = Vector<Dim>::Zero();
+    std::array<Vector<Dim>, 2> arm{};  ///< from the bodies' centres [m]
     double unit = 1.0;                 ///< of impulses, m V [N s]
     double gap_velocity = 0.0;         ///< psi / h less what nu' adds to it [m/s]
     double normal_step = 0.0;          ///< p per [m/s]
     double friction_step = 0.0;        ///< y per unit of w
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
-    Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
-    Impulse direction = Impulse::Zero();  ///< of conjugate gradients
-    double change = 0.0;                  ///< largest of an impulse in the last pair of sweeps
+    Eigen::Matrix<double, Dim, kTangent> tangents = Eigen::Matrix<double, Dim, kTangent>::Zero();
+    FrictionVector<Dim> semi_axes = FrictionVector<Dim>::Zero();
 
     [[nodiscard]] Impulse impulse() const { return (Impulse() << y, p).finished(); }
   };
+  /// What accelerate() knows of a contact.
+  struct Course {
+    Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
+    Impulse direction = Impulse::Zero();  ///< of conjugate gradients
+    double change = 0.0;                  ///< largest of an impulse in the last pair of sweeps
+  };
   struct JointRow {
     std::array<int, 2> place{-1, -1};
-    std::array<Twist<Dim>, 2> gradient{};  ///< of phi by L^T nu'
-    std::array<Twist<Dim>, 2> response{};  ///< of L^T nu'
-    double constant = 0.0;                 ///< phi less what nu' adds to it
+    std::array<Twist<Dim>, 2> gradient{};  ///< of phi by nu'
+    std::array<Twist<Dim>, 2> response{};
+    double constant = 0.0;  ///< phi less what nu' adds to it
     double step = 0.0;
     Eigen::Index column = 0;  ///< in z
     double impulse = 0.0;
   };
 
-  void start_free(const StepProblem<Dim>& problem, std::size_t body);
-  void write_velocity(const StepProblem<Dim>& problem, std::size_t body, Eigen::VectorXd& z) const;
+  void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void freeze_contact(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
   void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
+  void sweep_all(const StepProblem<Dim>& problem, bool forward);
   void sweep(Contact& contact, double mu, double velocity);
   void sweep(JointRow& row);
-  void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
-  void sweep_all(const StepProblem<Dim>& problem, bool forward);
-  void write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const;
   [[nodiscard]] double accelerate(std::span<const std::size_t> contacts);
-  void write_contact(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) const;
-  void push(const Contact& contact, const Impulse& change);
+  [[nodiscard]] Twist<Dim> relative_velocity(const Contact& contact) const;
+  [[nodiscard]] FrictionVector<Dim> slip(const Contact& contact, const Twist<Dim>& velocity) const;
+  void push(const Contact& contact, const Impulse& change, bool only_moving = false);
+  void write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const;
+  void write_velocity(const StepProblem<Dim>& problem, std::size_t body, Eigen::VectorXd& z) const;
+  void write_impulse(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) const;
 
+  std::vector<Body> bodies_;
   std::vector<Contact> contacts_;
+  std::vector<Course> courses_;  ///< of the contacts
   std::vector<JointRow> joints_;
   double last_change_ = 0.0;  ///< |change of impulses|^2 of the pair of sweeps before the last one
   StepBlock<Dim> block_;
-  std::vector<MotionMatrix<Dim>> root_;  ///< L of each body, see bind()
-  std::vector<Twist<Dim>> nu_;           ///< L^T nu'
-  std::vector<bool> moves_;              ///< body of the last freeze()
 };
 
 }  // namespace touchstone
