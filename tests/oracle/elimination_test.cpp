@@ -39,8 +39,9 @@ double difference(std::span<const BodyState<Dim>> a, std::span<const BodyState<D
   return largest;
 }
 
-/// Ten bodies that knock against each other all at once have more than one solution with friction, and are
-/// chaotic: they are followed until they first do.
+/// Where ten bodies knock against each other all at once a step with friction has more than one solution: of
+/// ten spheres with 21 contacts the two solvers find some that are 0.01 m/s apart, both to 1e-14. They are
+/// followed until then.
 int steps_of(const std::string& name) { return name == "ten_bodies" || name == "spheres_in_box" ? 40 : 100; }
 
 class Elimination : public testing::TestWithParam<std::string> {};
