@@ -14,8 +14,9 @@
 // it). On a flat side, where the body would rock to and fro, B < 0: over a swing A + B cancels and A - B adds
 // up; the frozen step is as symplectic Euler, the NCP as implicit Euler, which damps. On a sharp side, whose
 // radius of curvature is less than the height of the centre, B > 0: with lambda the rate at which the body
-// would fall off it, A - B is constant and A + B grows as cosh(2 lambda t). Bodies left alone are mostly on
-// their flat sides. In one that spins fast above its contact the frozen geometry is out of date.
+// would fall off it, A - B is constant, on the way over it a small gain, and A + B grows as
+// cosh(2 lambda t). Bodies left alone are mostly on their flat sides. In one that spins fast above its
+// contact the frozen geometry is out of date.
 
 #include <algorithm>
 #include <cmath>
