@@ -30,7 +30,8 @@ const std::vector<std::string> kErrorColumns = {"relative_error",
                                                 "orientation_error_rad",
                                                 "velocity_error_m_s",
                                                 "angular_velocity_error_rad_s",
-                                                "largest_penetration_m"};
+                                                "largest_penetration_m",
+                                                "largest_residual"};
 
 std::vector<std::string> with(std::vector<std::string> columns, const std::vector<std::string>& more) {
   columns.insert(columns.end(), more.begin(), more.end());
@@ -99,6 +100,7 @@ struct Attempt {
   Errors errors;
   double relative_error = 0.0;
   double penetration = 0.0;
+  double residual = 0.0;
 };
 
 template <int Dim>
@@ -116,6 +118,7 @@ Attempt attempt(const ClosedFormScenario<Dim>& scenario, const MethodSpec& spec,
   made.errors = meter.errors();
   made.relative_error = relative(meter.errors(), scenario);
   made.penetration = run.largest_penetration;
+  made.residual = run.residual.largest();
   return made;
 }
 
@@ -139,7 +142,8 @@ void set_errors(Record& record, const Attempt& one, bool has_orientation) {
   if (has_orientation) record.set("orientation_error_rad", one.errors.orientation);
   record.set("velocity_error_m_s", one.errors.velocity)
       .set("angular_velocity_error_rad_s", one.errors.angular_velocity)
-      .set("largest_penetration_m", one.penetration);
+      .set("largest_penetration_m", one.penetration)
+      .set("largest_residual", one.residual);
 }
 
 /// All step sizes of one method on one scenario, the last attempt being the finest.

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/harness/account_columns.h"
 #include "experiments/harness/variants.h"
 #include "experiments/scenarios/euler_disc.h"
 
@@ -24,9 +23,10 @@ using namespace touchstone::harness;
 constexpr double kTorsion = 0.05;    // e_r of the variant `torsion` [m]
 constexpr double kFlat = 0.0174533;  // 1 degree [rad]: below it the precession is too fast for the step
 
-const std::vector<std::string> kSummary = with_account(
-    {"inclination_1s_rad", "inclination_error_1s_rad", "precession_1s_rad_s", "precession_error_1s",
-     "end_inclination_rad", "end_precession_rad_s", "largest_off_steady", "flat_s", "largest_energy_rise_J"});
+const std::vector<std::string> kSummary = {
+    "inclination_1s_rad",   "inclination_error_1s_rad", "precession_1s_rad_s", "precession_error_1s",
+    "end_inclination_rad",  "end_precession_rad_s",     "largest_off_steady",  "flat_s",
+    "largest_energy_rise_J"};
 const std::vector<std::string> kHistory = {"t_s",
                                            "inclination_rad",
                                            "precession_rad_s",
@@ -55,9 +55,8 @@ void set_one_second(Record& record, const EulerDiscScene& scene, const EulerDisc
       .set("precession_error_1s", std::abs(motion.precession / truth - 1));
 }
 
-std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>& run) {
+std::vector<Row> rows(const std::string& variant, const CaseRun<3>& run, Record& summary) {
   const EulerDiscScene scene = scene_of(variant);
-  Record summary(kSummary);
   std::vector<Row> history;
   double off_steady = 0;
   double rise = 0;
@@ -87,33 +86,29 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
   if (flat < 0) summary.set("end_precession_rad_s", end.precession);
   if (flat >= 0) summary.set("flat_s", flat);
   summary.set("largest_energy_rise_J", rise);
-  set_account(summary, run);
-  return {{summary.row()}, history};
+  return history;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const VariantExperiment what = {
-      .scenario = "euler_disc",
-      .variants = {"rolling", "torsion"},
-      .about_variants =
-          "rolling: no friction torque; torsion: with a friction torque about the contact's normal",
-      .scene = [](const std::string& variant) { return euler_disc_scene(scene_of(variant)); },
-      .tabulate = rows};
-  CommandLineSpec spec = {
       .name = "euler_disc",
       .about =
           "Does a coin that rolls on its rim with its centre at rest keep to the closed form of that motion?",
       .examples =
           "  euler_disc                                     what is committed\n"
           "  euler_disc --variants rolling --step-sizes 0.002 --until 5 --out /tmp/coin\n",
-      .methods = {"implicit_ncp"},
-      .axes = {},
+      .variants = {"rolling", "torsion"},
+      .about_variants =
+          "rolling: no friction torque; torsion: with a friction torque about the contact's normal",
+      .steps = {"0.002", "0.001", "0.0005", "0.00025"},
+      .quick_steps = {"0.002", "0.001"},
       .until = 4.0,
-      .quick_until = 1.0};
-  const Experiment experiment =
-      variant_experiment(what, std::move(spec), {{"summary", kSummary}, {"history", kHistory}},
-                         {"0.002", "0.001", "0.0005", "0.00025"}, {"0.002", "0.001"});
-  return run_experiment(experiment, argc, argv);
+      .quick_until = 1.0,
+      .summary = kSummary,
+      .history = kHistory,
+      .scene = [](const std::string& variant) { return euler_disc_scene(scene_of(variant)); },
+      .tabulate = rows};
+  return run_variant_experiment(what, argc, argv);
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/harness/account_columns.h"
 #include "experiments/harness/variants.h"
 #include "experiments/scenarios/rattleback.h"
 
@@ -21,9 +20,9 @@ using namespace touchstone::harness;
 
 constexpr int kSamples = 2000;  // the rocking takes about 0.1 s
 
-const std::vector<std::string> kSummary =
-    with_account({"start_spin_rad_s", "end_spin_rad_s", "reversals", "reversal_s", "truth_reversals",
-                  "truth_reversal_s", "reversal_error_s", "truth_end_spin_rad_s", "truth_needed_mu"});
+const std::vector<std::string> kSummary = {"start_spin_rad_s", "end_spin_rad_s",       "reversals",
+                                           "reversal_s",       "truth_reversals",      "truth_reversal_s",
+                                           "reversal_error_s", "truth_end_spin_rad_s", "truth_needed_mu"};
 const std::vector<std::string> kHistory = {
     "t_s", "spin_rad_s", "roll_rad_s", "pitch_rad_s", "truth_spin_rad_s", "total_J", "energy_drift_J"};
 
@@ -64,7 +63,7 @@ void set_reversals(Record& record, const Reversals& mine, const Truth& truth) {
   record.set("truth_needed_mu", truth.needed_mu);
 }
 
-std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>& run) {
+std::vector<Row> rows(const std::string& variant, const CaseRun<3>& run, Record& summary) {
   std::vector<double> times;
   std::vector<double> spins;
   for (std::size_t i = 0; i < run.samples.size(); ++i) {
@@ -83,36 +82,31 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
     row.set("total_J", run.samples[i].energy.total()).set("energy_drift_J", run.accounts[i].drift);
     history.push_back(row.row());
   }
-  Record summary(kSummary);
   summary.set("start_spin_rad_s", spins.front()).set("end_spin_rad_s", spins.back());
   set_reversals(summary, count_reversals(times, spins), truth);
   if (truth.spins.size() == times.size()) summary.set("truth_end_spin_rad_s", truth.spins.back());
-  set_account(summary, run);
-  return {{summary.row()}, history};
+  return history;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const VariantExperiment what = {
-      .scenario = "rattleback",
-      .variants = {"clockwise", "counterclockwise"},
-      .about_variants = "the sense in which it is spun, seen from above",
-      .samples = kSamples,
-      .scene = [](const std::string& variant) { return rattleback_scene(back_of(variant)); },
-      .tabulate = rows};
-  CommandLineSpec spec = {
       .name = "rattleback",
       .about = "Does a rattleback turn back when it is spun in one sense, and not in the other?",
       .examples =
           "  rattleback                                     what is committed\n"
           "  rattleback --variants clockwise --step-sizes 1e-5 --out /tmp/back\n",
-      .methods = {"implicit_ncp"},
-      .axes = {},
+      .variants = {"clockwise", "counterclockwise"},
+      .about_variants = "the sense in which it is spun, seen from above",
+      .steps = {"0.0002", "0.0001", "0.00005", "0.000025"},
+      .quick_steps = {"0.0005", "0.00025"},
       .until = 5.0,
-      .quick_until = 0.5};
-  const Experiment experiment =
-      variant_experiment(what, std::move(spec), {{"summary", kSummary}, {"history", kHistory}},
-                         {"0.0002", "0.0001", "0.00005", "0.000025"}, {"0.0005", "0.00025"});
-  return run_experiment(experiment, argc, argv);
+      .quick_until = 0.5,
+      .samples = kSamples,
+      .summary = kSummary,
+      .history = kHistory,
+      .scene = [](const std::string& variant) { return rattleback_scene(back_of(variant)); },
+      .tabulate = rows};
+  return run_variant_experiment(what, argc, argv);
 }

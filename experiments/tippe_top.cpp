@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/harness/account_columns.h"
 #include "experiments/harness/variants.h"
 #include "experiments/scenarios/tippe_top.h"
 
@@ -20,9 +19,9 @@ namespace {
 using namespace touchstone;
 using namespace touchstone::harness;
 
-const std::vector<std::string> kSummary =
-    with_account({"start_inclination_rad", "largest_inclination_rad", "end_inclination_rad", "horizontal_s",
-                  "jellett_kg_m2_s", "largest_jellett_drift", "jellett_drift_1s", "center_rise_m"});
+const std::vector<std::string> kSummary = {
+    "start_inclination_rad", "largest_inclination_rad", "end_inclination_rad", "horizontal_s",
+    "jellett_kg_m2_s",       "largest_jellett_drift",   "jellett_drift_1s",    "center_rise_m"};
 const std::vector<std::string> kHistory = {
     "t_s",     "inclination_rad", "spin_vertical_rad_s", "spin_axis_rad_s", "slip_m_s", "jellett_kg_m2_s",
     "total_J", "kinetic_J",       "friction_loss_J",     "energy_drift_J"};
@@ -33,10 +32,9 @@ TippeTop top_of(const std::string& variant) {
   return top;
 }
 
-std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>& run) {
+std::vector<Row> rows(const std::string& variant, const CaseRun<3>& run, Record& summary) {
   const TippeTop top = top_of(variant);
   const double constant = top.jellett(run.states.front().front());
-  Record summary(kSummary);
   std::vector<Row> history;
   double steepest = 0;
   double drift = 0;
@@ -66,31 +64,28 @@ std::vector<std::vector<Row>> rows(const std::string& variant, const CaseRun<3>&
   summary.set("jellett_kg_m2_s", constant).set("largest_jellett_drift", drift);
   summary.set("center_rise_m",
               run.end.front().pose.position.z() - run.states.front().front().pose.position.z());
-  set_account(summary, run);
-  return {{summary.row()}, history};
+  return history;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const VariantExperiment what = {
-      .scenario = "tippe_top",
+      .name = "tippe_top",
+      .about = "Does a tippe top turn over, and keep Jellett's constant while it does?",
+      .examples =
+          "  tippe_top                                      what is committed\n"
+          "  tippe_top --variants vertical --step-sizes 0.0001 --out /tmp/top\n",
       .variants = {"vertical", "axis"},
       .about_variants =
           "vertical: spun about the vertical, so that it slides; axis: about its own axis, so that it rolls",
+      .steps = {"0.001", "0.0005", "0.00025", "0.000125"},
+      .quick_steps = {"0.001", "0.0005"},
+      .until = 4.0,
+      .quick_until = 1.0,
+      .summary = kSummary,
+      .history = kHistory,
       .scene = [](const std::string& variant) { return tippe_top_scene(top_of(variant)); },
       .tabulate = rows};
-  CommandLineSpec spec = {.name = "tippe_top",
-                          .about = "Does a tippe top turn over, and keep Jellett's constant while it does?",
-                          .examples =
-                              "  tippe_top                                      what is committed\n"
-                              "  tippe_top --variants vertical --step-sizes 0.0001 --out /tmp/top\n",
-                          .methods = {"implicit_ncp"},
-                          .axes = {},
-                          .until = 4.0,
-                          .quick_until = 1.0};
-  const Experiment experiment =
-      variant_experiment(what, std::move(spec), {{"summary", kSummary}, {"history", kHistory}},
-                         {"0.001", "0.0005", "0.00025", "0.000125"}, {"0.001", "0.0005"});
-  return run_experiment(experiment, argc, argv);
+  return run_variant_experiment(what, argc, argv);
 }

@@ -42,7 +42,8 @@ constexpr const char* kRunHelp = R"(
 Writes three tables to DIR, all or none:
   trajectory.csv  pose and velocity of every moving body at its centre of mass, world frame
   contacts.csv    gap, forces, slip and spin at each contact, from the second time on: forces belong to the step before
-  energy.csv      energy, and what was lost to friction, to impacts, and to the numbers (drift) since the start
+  energy.csv      energy, and what was lost to friction, to impacts, and to the numbers (drift) since the start; what
+                  gravity and the applied forces have done is what potential_J has fallen by
 t = 0 and the end are always in. A planar scene lies in z = 0.
 
 A step that fails ends the run. What was recorded before it is written, the time and the reason are told, and the exit

@@ -1,49 +1,66 @@
 #include "experiments/harness/variants.h"
 
+#include "experiments/harness/account_columns.h"
+#include "experiments/harness/experiment.h"
 #include "experiments/harness/method_case.h"
 
 namespace touchstone::harness {
 
 namespace {
 
+using Tables = std::vector<std::vector<Row>>;
+
+Tables tables_of(const VariantExperiment& what, const std::string& variant, const CaseRun<3>& run) {
+  const std::vector<std::string> columns = with_account(what.summary);
+  Record summary(columns);
+  std::vector<Row> history = what.tabulate(variant, run, summary);
+  set_account(summary, run);
+  return {{summary.row()}, std::move(history)};
+}
+
 Case variant_case(const VariantExperiment& what, const std::string& variant, const MethodSpec& method,
                   double h, double until) {
   MethodCase<3> spec;
-  spec.scenario = what.scenario;
+  spec.scenario = what.name;
   spec.scene = std::make_shared<Scene<3>>(what.scene(variant));
   spec.method = method;
   spec.sweep = {variant};
   spec.run = {.h = h, .until = until, .samples = what.samples, .states = true, .ledger = true};
-  spec.tabulate = [variant, tabulate = what.tabulate](const CaseRun<3>& run) {
-    return tabulate(variant, run);
-  };
+  spec.tabulate = [what, variant](const CaseRun<3>& run) { return tables_of(what, variant, run); };
   return make_case(std::move(spec));
+}
+
+std::vector<Case> cases(const VariantExperiment& what, const Selection& selection) {
+  std::vector<Case> all;
+  for (const double h : selection.numbers("step-sizes")) {
+    for (const MethodSpec& method : selection.methods) {
+      for (const std::string& variant : selection.texts("variants")) {
+        all.push_back(variant_case(what, variant, method, h, selection.until));
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace
 
-Experiment variant_experiment(const VariantExperiment& what, CommandLineSpec spec,
-                              std::vector<TableSpec> tables, const std::vector<std::string>& steps,
-                              const std::vector<std::string>& quick) {
-  spec.axes.push_back(
-      {"variants", what.about_variants, AxisKind::text, what.variants, what.variants, 1, what.variants});
-  spec.axes.push_back({"step-sizes", "step sizes h [s]", AxisKind::positive, steps, quick});
-  const auto cases = [what](const Selection& selection) {
-    std::vector<Case> all;
-    for (const double h : selection.numbers("step-sizes")) {
-      for (const MethodSpec& method : selection.methods) {
-        for (const std::string& variant : selection.texts("variants")) {
-          all.push_back(variant_case(what, variant, method, h, selection.until));
-        }
-      }
-    }
-    return all;
-  };
-  return {.command_line = std::move(spec),
-          .sweep_columns = {"variant"},
-          .tables = std::move(tables),
-          .seed = std::nullopt,
-          .cases = cases};
+int run_variant_experiment(const VariantExperiment& what, int argc, char** argv) {
+  const Axis variants = {"variants", what.about_variants, AxisKind::text, what.variants, what.variants,
+                         1,          what.variants};
+  const Axis steps = {"step-sizes", "step sizes h [s]", AxisKind::positive, what.steps, what.quick_steps};
+  const Experiment experiment = {
+      .command_line = {.name = what.name,
+                       .about = what.about,
+                       .examples = what.examples,
+                       .methods = {"implicit_ncp"},
+                       .axes = {variants, steps},
+                       .until = what.until,
+                       .quick_until = what.quick_until},
+      .sweep_columns = {"variant"},
+      .tables = {{"summary", with_account(what.summary)}, {"history", what.history}},
+      .seed = std::nullopt,
+      .cases = [&what](const Selection& selection) { return cases(what, selection); }};
+  return run_experiment(experiment, argc, argv);
 }
 
 }  // namespace touchstone::harness

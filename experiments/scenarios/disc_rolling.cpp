@@ -1,5 +1,7 @@
 #include "experiments/scenarios/disc_rolling.h"
 
+#include "experiments/scenarios/fixed_plane.h"
+
 namespace touchstone {
 
 Scene<2> disc_rolling_scene(const DiscRolling& parameters) {
@@ -16,12 +18,7 @@ Scene<2> disc_rolling_scene(const DiscRolling& parameters) {
   disc.velocity = {-parameters.radius * parameters.angular_velocity, 0.0, parameters.angular_velocity};
   disc.shape.geometry = Sphere<2>{parameters.radius};
 
-  Body<2> ground;
-  ground.name = "ground";
-  ground.fixed = true;
-  ground.shape.geometry = HalfSpace<2>{};
-
-  scene.bodies = {disc, ground};
+  scene.bodies = {disc, fixed_plane<2>("ground")};
   scene.validate();
   return scene;
 }

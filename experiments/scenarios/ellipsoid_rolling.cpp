@@ -1,6 +1,7 @@
 #include "experiments/scenarios/ellipsoid_rolling.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace touchstone {
 
@@ -27,6 +28,16 @@ truth::RollingEllipsoid ellipsoid_on_plane() {
 truth::RollingEllipsoid ellipsoid_spinning() {
   truth::RollingEllipsoid rolling = ellipsoid_on_plane();
   rolling.omega = {0.1, 0.1, 10.0};
+  return rolling;
+}
+
+truth::RollingEllipsoid ellipsoid_over_its_end() {
+  constexpr double before_the_top = 0.7;  // [rad]; 1.2 rad/s are enough to get over it, and not much more
+  truth::RollingEllipsoid rolling;
+  rolling.semi_axes = {1.0, 0.9, 0.8};
+  rolling.inertia = truth::RollingEllipsoid::solid_inertia(rolling.mass, rolling.semi_axes);
+  rolling.orientation = Eigen::AngleAxisd(std::numbers::pi / 2 - before_the_top, Vector<3>::UnitY());
+  rolling.omega = {0.05, 1.2, 0.05};
   return rolling;
 }
 

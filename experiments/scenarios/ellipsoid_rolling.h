@@ -11,6 +11,10 @@ namespace touchstone {
 truth::RollingEllipsoid ellipsoid_on_plane();
 /// The same ellipsoid, turning fast about the vertical: the contact's surroundings turn by 0.1 rad in 0.01 s.
 truth::RollingEllipsoid ellipsoid_spinning();
+/// A solid ellipsoid of semi-axes 1, 0.9, 0.8 m that rolls up on to the end of its longest axis, over it and
+/// down the other side within 2 s: all the while on its sharp side, where the curvature radius in the
+/// direction of rolling is less than the height of the centre.
+truth::RollingEllipsoid ellipsoid_over_its_end();
 /// A solid ellipsoid that starts on top of a fixed one.
 truth::RollingEllipsoid ellipsoid_on_ellipsoid();
 

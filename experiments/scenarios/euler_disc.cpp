@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/scenarios/fixed_plane.h"
+
 namespace touchstone {
 
 Scene<3> euler_disc_scene(const EulerDiscScene& parameters) {
@@ -26,11 +28,7 @@ Scene<3> euler_disc_scene(const EulerDiscScene& parameters) {
   const Vector<3> omega = disc.omega(alpha);
   coin.velocity.tail<3>() = omega[0] * up + omega[1] * e3 + omega[2] * e3.cross(up);
 
-  Body<3> table;
-  table.name = "table";
-  table.fixed = true;
-  table.shape.geometry = HalfSpace<3>{};
-  scene.bodies = {coin, table};
+  scene.bodies = {coin, fixed_plane<3>("table")};
   scene.validate();
   return scene;
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "experiments/scenarios/fixed_plane.h"
+
 namespace touchstone {
 
 namespace {
@@ -41,11 +43,7 @@ Scene<3> rattleback_scene(const Rattleback& parameters) {
   const Vector<3> omega(parameters.nudge, 0, parameters.spin);
   back.velocity << -omega.cross(Vector<3>(0, 0, -height)), omega;
 
-  Body<3> table;
-  table.name = "table";
-  table.fixed = true;
-  table.shape.geometry = HalfSpace<3>{};
-  scene.bodies = {back, table};
+  scene.bodies = {back, fixed_plane<3>("table")};
   scene.validate();
   return scene;
 }

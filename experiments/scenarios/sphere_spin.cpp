@@ -1,5 +1,7 @@
 #include "experiments/scenarios/sphere_spin.h"
 
+#include "experiments/scenarios/fixed_plane.h"
+
 namespace touchstone {
 
 Scene<3> sphere_spin_scene(const truth::SpinningSphere& parameters, double radius) {
@@ -16,12 +18,7 @@ Scene<3> sphere_spin_scene(const truth::SpinningSphere& parameters, double radiu
   ball.velocity[5] = parameters.omega;
   ball.shape.geometry = Sphere<3>{radius};
 
-  Body<3> ground;
-  ground.name = "ground";
-  ground.fixed = true;
-  ground.shape.geometry = HalfSpace<3>{};
-
-  scene.bodies = {ball, ground};
+  scene.bodies = {ball, fixed_plane<3>("ground")};
   scene.validate();
   return scene;
 }

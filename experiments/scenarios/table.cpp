@@ -17,6 +17,8 @@ constexpr std::array kScenarios = {
     ScenarioEntry{"drop", "Does a ball that falls without restitution come to rest where it lands?"},
     ScenarioEntry{"ellipsoid_on_ellipsoid",
                   "Does an ellipsoid roll on another one, to which its distance has no closed form?"},
+    ScenarioEntry{"ellipsoid_over_its_end",
+                  "How near is a step of h where the ellipsoid rolls over the end of its longest axis?"},
     ScenarioEntry{"ellipsoid_rolling",
                   "How near to the rolling motion of a triaxial ellipsoid on a plane is a step of h?"},
     ScenarioEntry{"ellipsoid_spinning",

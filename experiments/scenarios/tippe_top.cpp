@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "experiments/scenarios/fixed_plane.h"
 #include "experiments/scenarios/truths/gyroscopes.h"
 
 namespace touchstone {
@@ -50,11 +51,7 @@ Scene<3> tippe_top_scene(const TippeTop& parameters) {
     top.velocity.head<3>() = -omega.cross(contact_arm(parameters, axis));
   }
 
-  Body<3> table;
-  table.name = "table";
-  table.fixed = true;
-  table.shape.geometry = HalfSpace<3>{};
-  scene.bodies = {top, table};
+  scene.bodies = {top, fixed_plane<3>("table")};
   scene.validate();
   return scene;
 }

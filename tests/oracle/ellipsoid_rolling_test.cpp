@@ -72,7 +72,8 @@ TEST_P(EllipsoidRolling, NeitherSlipsNorPenetratesAndSolvesThePapersSystem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EllipsoidRolling,
-                         testing::Values(&ellipsoid_on_plane, &ellipsoid_on_ellipsoid));
+                         testing::Values(&ellipsoid_on_plane, &ellipsoid_on_ellipsoid,
+                                         &ellipsoid_over_its_end));
 
 TEST(EllipsoidRollingControl, TheOrderIsNotFoundAgainstAnotherTruth) {
   // With an inertia that is 5 % off the error ends at that of the truth, however small the step.
@@ -96,6 +97,17 @@ TEST(EllipsoidRollingControl, FrozenGeometryIsWorseForABodyThatSpinsFast) {
   const truth::RollingEllipsoid rolling = ellipsoid_spinning();
   EXPECT_GT(roll(rolling, rolling, "stewart_trinkle", 0.01).error,
             roll(rolling, rolling, "implicit_ncp", 0.01).error);
+}
+
+TEST(EllipsoidRollingControl, FrozenGeometryIsWorseOverASharpEnd) {
+  // In the linear motion over the end, theta ~ sinh(lambda t), the NCP's drift adds up evenly and the frozen
+  // step's as cosh(2 lambda t), -1 s <= t <= 1 s: sinh(2 lambda) / (2 lambda) = 4 times as much. Half of it
+  // is asked for.
+  const truth::RollingEllipsoid rolling = ellipsoid_over_its_end();
+  const Rolled frozen = roll(rolling, rolling, "stewart_trinkle", 0.01);
+  const Rolled ncp = roll(rolling, rolling, "implicit_ncp", 0.01);
+  EXPECT_GT(frozen.error, 2 * ncp.error);
+  EXPECT_GT(frozen.drift, 2 * ncp.drift);
 }
 
 TEST(EllipsoidRolling, LosesNothingToFrictionByTheLedger) {

@@ -2,39 +2,22 @@
 // reduced equations of motion.
 #include <gtest/gtest.h>
 
-#include "core/stepper/implicit_stepper.h"
 #include "experiments/harness/ledger.h"
 #include "experiments/scenarios/truths/ode.h"
 #include "experiments/scenarios/truths/slider_crank.h"
 #include "experiments/scenarios/truths/swings_and_bounces.h"
 #include "experiments/scene_file/scene_file.h"
+#include "tests/regression/judged_run.h"
 #include "tests/regression/orders.h"
 
 namespace touchstone {
 namespace {
 
 using testing::expect_first_order;
+using testing::judged_run;
 
 Scene<2> example(const std::string& name) {
   return std::get<Scene<2>>(scene_file::read_scene(std::string(EXAMPLE_SCENES) + "/" + name + ".toml"));
-}
-
-/// Runs to `until`. The judge looks at every step: Eqs. 10-11 and the joints to 1e-10.
-template <class Look>
-void run(const Scene<2>& scene, double h, double until, const Look& look) {
-  ImplicitStepper<2> stepper(scene, {});
-  const Judge<2> judge(stepper.scene());
-  std::vector<BodyState<2>> before;
-  const int steps = static_cast<int>(std::lround(until / h));
-  for (int k = 1; k <= steps; ++k) {
-    before.assign(stepper.state().begin(), stepper.state().end());
-    ASSERT_EQ(stepper.step(h).status, StepStatus::solved) << "step " << k;
-    const StepResidual residual =
-        judge.step_residual(before, stepper.state(), stepper.contacts(), h, stepper.joints());
-    ASSERT_LE(residual.joints, 1e-10) << "step " << k;
-    ASSERT_LE(residual.largest(), 1e-10) << "step " << k;
-    look(h * k, stepper);
-  }
 }
 
 constexpr double kLength = 2.0 / 3.0;  // of the simple pendulum: I / (m d) of a rod of 1 m about its end [m]
@@ -51,8 +34,8 @@ TEST(Pendulum, TendsToTheReducedEquationWithTheFirstPower) {
   std::vector<double> errors;
   for (const double h : {0.004, 0.002, 0.001, 0.0005}) {
     double angle = 0;
-    run(example("pendulum"), h, kUntil,
-        [&](double, const auto& s) { angle = s.state()[0].pose.rotation.angle(); });
+    judged_run(example("pendulum"), h, kUntil,
+               [&](double, const auto& s) { angle = s.state()[0].pose.rotation.angle(); });
     errors.push_back(std::abs(angle - pendulum_angle(kUntil)));
   }
   expect_first_order(errors);
@@ -64,7 +47,7 @@ TEST(Pendulum, HasThePeriodOfTheEllipticIntegral) {
     // From rest to rest on the other side is half a period; the rate goes through zero from below.
     double crossing = 0;
     double last = -1;
-    run(example("pendulum"), h, 1.0, [&](double t, const auto& s) {
+    judged_run(example("pendulum"), h, 1.0, [&](double t, const auto& s) {
       const double rate = s.state()[0].velocity[2];
       if (crossing == 0 && last < 0 && rate >= 0 && t > 0.1) crossing = t - h * rate / (rate - last);
       last = rate;
@@ -96,7 +79,7 @@ TEST(SliderCrank, TendsToTheReducedEquationWithTheFirstPowerBeforeItHits) {
   std::vector<double> slider;
   std::vector<double> angle;
   for (const double h : {0.004, 0.002, 0.001, 0.0005}) {
-    run(scene, h, kUntil, [&](double t, const auto& s) {
+    judged_run(scene, h, kUntil, [&](double t, const auto& s) {
       if (t < kUntil - h / 2) return;
       const auto at = [&](const char* name) { return s.state()[static_cast<std::size_t>(scene.body(name))]; };
       slider.push_back(std::abs(at("block").pose.position.x() - truth.slider.x()));
@@ -116,7 +99,7 @@ TEST(SliderCrank, KeepsItsJointsThroughTheBlowAndThrowsTheDiscOff) {
   EnergyLedger<2> ledger(scene, judge, start);
   std::vector<BodyState<2>> before = start;
   double fastest = 0;
-  run(scene, 0.001, 1.0, [&](double, const auto& s) {
+  judged_run(scene, 0.001, 1.0, [&](double, const auto& s) {
     fastest = std::max(fastest, s.state()[disc].velocity[0]);
     EXPECT_LE(judge.largest_penetration(s.state()), 1e-9);
     const double energy = ledger.energy().total();

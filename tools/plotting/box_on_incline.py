@@ -86,8 +86,7 @@ def threshold_map(directory):
     panels[0].set_ylabel("coefficient of friction $\\mu$")
     panels[0].plot([], [], linestyle="none", marker="s", markersize=4.5, color=style.GREY, markerfacecolor="white",
                    label="hollow: 0.05 % beside a threshold (drawn apart)")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=5, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, panels[0], columns=5)
     style.headline(figure, "A box on an incline stays, slides or tips on the right side of every threshold",
                    "Areas: the mode that the equations of plane motion allow when the box is let go. Marks: what the "
                    "implicit NCP, in space and with a\nsingle flat contact, makes of it after five steps of 1 ms.")
@@ -114,8 +113,7 @@ def wrong_cells(directory):
         if i + columns >= len(methods):
             axes.set_xlabel("tan $\\theta$ / k")
             axes.tick_params(labelbottom=True)
-    handles, labels = grid[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, grid[0][0], columns=4)
     style.headline(figure, "Who is wrong where: cells of the map in which a method's box does what it should not",
                    "60 ms after the box is let go: does it rest, slide or tip? All aspect ratios k = length / height in "
                    "one panel, slope and friction over k.\nGrey lines are the thresholds. In the upper left the box "

@@ -22,8 +22,7 @@ def history(directory):
     figure, panels = style.plt.subplots(2, 2, figsize=(9.6, 7.0))
     figure.subplots_adjust(left=0.08, right=0.985, bottom=0.115, top=0.83, wspace=0.22, hspace=0.3)
     (inclination, precession), (energy, family) = panels
-    for i, ((step, case), colour) in enumerate(zip(reversed(steps), style.shades(len(steps)))):
-        look = dict(color=colour, linestyle=style.DASHES[i % len(style.DASHES)], label=f"h = {1000 * step:g} ms")
+    for case, look in style.coarse_to_fine(steps):
         degrees = [math.degrees(a) for a in case.numbers("inclination_rad")]
         inclination.plot(case.numbers("t_s"), degrees, **look)
         precession.plot(*known(case.numbers("t_s"), case.numbers("precession_rad_s")), **look)
@@ -50,8 +49,7 @@ def history(directory):
     family.set_xlabel("inclination [degrees]")
     family.set_ylabel("precession rate [rad/s]")
     family.legend(handles=[family.lines[-1]], frameon=False, fontsize=style.LABEL_POINTS)
-    handles, labels = inclination.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=5, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, inclination, columns=5)
     style.headline(figure, "Euler's disc: what a step takes makes the coin sink through steady motions",
                    "Implicit NCP, no torsion. Without loss the coin rolls for ever as it started. A step takes energy in "
                    "proportion to h, so the\ncoin comes down as a real one does, round faster and faster, and keeps to "
@@ -65,16 +63,14 @@ def torsion(directory):
     steps = rows.groups("h_s")
     figure, [[spin, energy]] = style.new_figure(9.4, 4.3, panels=2)
     figure.subplots_adjust(left=0.08, right=0.985, bottom=0.225, top=0.77, wspace=0.2)
-    for i, ((step, case), colour) in enumerate(zip(reversed(steps), style.shades(len(steps)))):
-        look = dict(color=colour, linestyle=style.DASHES[i % len(style.DASHES)], label=f"h = {1000 * step:g} ms")
+    for case, look in style.coarse_to_fine(steps):
         spin.plot(case.numbers("t_s"), case.numbers("contact_spin_rad_s"), **look)
         energy.plot(case.numbers("t_s"), case.numbers("friction_loss_J"), **look)
     spin.set_ylabel("turn about the contact's normal [rad/s]")
     energy.set_ylabel("energy lost to torsion [J]")
     for axes in (spin, energy):
         axes.set_xlabel("time t [s]")
-    handles, labels = spin.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, spin, columns=4)
     style.headline(figure, "A friction torque stops the coin's turn about its contact, and then takes nothing more",
                    "Implicit NCP, e_r = 0.05 m. Once the coin no longer turns about the contact's normal it rolls round "
                    "a circle without loss,\nexcept for what the step takes.")

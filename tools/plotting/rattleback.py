@@ -15,9 +15,8 @@ def history(directory):
     for (spin, rocking), (variant, title) in zip(panels.T, SENSES.items()):
         steps = rows.where(variant=variant).require_rows(f"variant {variant}").groups("h_s")
         finest = steps[0][1]
-        for i, ((step, case), colour) in enumerate(zip(reversed(steps), style.shades(len(steps)))):
-            spin.plot(case.numbers("t_s"), case.numbers("spin_rad_s"), color=colour,
-                      linestyle=style.DASHES[i % len(style.DASHES)], label=f"h = {1000 * step:g} ms")
+        for case, look in style.coarse_to_fine(steps):
+            spin.plot(case.numbers("t_s"), case.numbers("spin_rad_s"), **look)
         spin.plot(finest.numbers("t_s"), finest.numbers("truth_spin_rad_s"), color=style.VERMILION, linewidth=1.1,
                   label="rolling without slip, exact", zorder=1)
         spin.axhline(0, color="#8A8A8A", linewidth=0.9)
@@ -31,8 +30,7 @@ def history(directory):
                       fontsize=style.LABEL_POINTS, va="top")
     panels[1][1].text(0.015, 0.07, "about the long axis", transform=panels[1][1].transAxes, color="#9A6700",
                       fontsize=style.LABEL_POINTS)
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=5, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, panels[0][0], columns=5)
     style.headline(figure, "A rattleback turns back in one sense only",
                    "Implicit NCP, no torsion, enough friction to roll. The spin goes into rocking, and out of it into the "
                    "other sense. A step takes\nenergy out of the rocking, so the spin that comes back is less than the "

@@ -70,6 +70,21 @@ def headline(figure, title, text):
     figure.text(0.012, 0.985 - offset, text, ha="left", va="top", fontsize=9.5, color="#333333", linespacing=1.35)
 
 
+def coarse_to_fine(steps):
+    """(rows, look) of each step, the largest first: a shade, a dash and a label each.
+
+    @param steps  [(h in s, rows)], ascending
+    """
+    for i, ((step, rows), colour) in enumerate(zip(reversed(steps), shades(len(steps)))):
+        yield rows, dict(color=colour, linestyle=DASHES[i % len(DASHES)], label=f"h = {1000 * step:g} ms")
+
+
+def legend_below(figure, axes, columns):
+    """The labels of `axes` as one legend of the figure, below its panels."""
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False, fontsize=LABEL_POINTS)
+
+
 def spread(positions, gap, low, high):
     """The positions moved as little as an ordered pass allows so that neighbours are `gap` apart, in [low, high].
 

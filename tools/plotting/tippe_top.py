@@ -16,8 +16,7 @@ def history(directory):
     figure, panels = style.plt.subplots(2, 2, figsize=(9.6, 7.0), sharex=True)
     figure.subplots_adjust(left=0.08, right=0.985, bottom=0.115, top=0.83, wspace=0.22, hspace=0.14)
     (inclination, jellett), (spin, energy) = panels
-    for i, ((step, case), colour) in enumerate(zip(reversed(steps), style.shades(len(steps)))):
-        look = dict(color=colour, linestyle=style.DASHES[i % len(style.DASHES)], label=f"h = {1000 * step:g} ms")
+    for case, look in style.coarse_to_fine(steps):
         times = case.numbers("t_s")
         inclination.plot(times, [math.degrees(a) for a in case.numbers("inclination_rad")], **look)
         values = case.numbers("jellett_kg_m2_s")
@@ -52,8 +51,7 @@ def history(directory):
     energy.set_ylabel(f"energy [mJ], h = {1000 * steps[0][0]:g} ms")
     for axes in (spin, energy):
         axes.set_xlabel("time t [s]")
-    handles, labels = jellett.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=4, frameon=False, fontsize=style.LABEL_POINTS)
+    style.legend_below(figure, jellett, columns=4)
     style.headline(figure, "A tippe top turns over; Jellett's constant is kept to first order in the step",
                    "Implicit NCP, mu = 0.2, no torsion, spun at 200 rad/s about the vertical with its axis tilted by 0.1 "
                    "rad. Friction at the sliding\ncontact lifts the centre of mass; halving the step halves the change of "

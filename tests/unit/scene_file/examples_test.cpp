@@ -20,10 +20,12 @@ Scene<Dim> example_of(const std::string& name) {
 }
 
 TEST(Examples, AreThese) {
-  EXPECT_EQ(test::listing(EXAMPLE_SCENES),
-            "box_on_incline.toml closed_forms.toml disc_rolling.toml ellipsoid_on_ellipsoid.toml "
-            "ellipsoid_rolling.toml euler_disc.toml pendulum.toml rattleback.toml slider_crank.toml "
-            "sphere_on_spheres.toml sphere_spin.toml ten_bodies.toml tippe_top.toml");
+  EXPECT_EQ(
+      test::listing(EXAMPLE_SCENES),
+      "box_on_incline.toml closed_forms.toml disc_rolling.toml ellipsoid_on_ellipsoid.toml "
+      "ellipsoid_over_its_end.toml ellipsoid_rolling.toml euler_disc.toml pendulum.toml rattleback.toml "
+      "slider_crank.toml sphere_on_spheres.toml sphere_spin.toml spheres_in_box.toml ten_bodies.toml "
+      "tippe_top.toml");
 }
 
 TEST(Examples, AreSoundAndExplained) {
@@ -56,6 +58,7 @@ TEST(Examples, ThatRollStartInTouchAndWithoutSlip) {
   };
   check(example_of<2>("disc_rolling"), "disc", "ground");
   check(example_of<3>("ellipsoid_rolling"), "ellipsoid", "ground");
+  check(example_of<3>("ellipsoid_over_its_end"), "ellipsoid", "ground");
   check(example_of<3>("ellipsoid_on_ellipsoid"), "ellipsoid", "support");
   check(example_of<3>("euler_disc"), "coin", "table");
   check(example_of<3>("rattleback"), "back", "table");

@@ -6,6 +6,7 @@
 #include "experiments/scenarios/ellipsoid_rolling.h"
 #include "experiments/scenarios/sphere_on_spheres.h"
 #include "experiments/scenarios/sphere_spin.h"
+#include "experiments/scenarios/spheres_in_box.h"
 #include "experiments/scene_file/scene_file.h"
 
 namespace touchstone::scene_file {
@@ -78,7 +79,11 @@ TEST(Scenarios, AreTheScenesOfTheirFiles) {
   expect_same_scene("sphere_spin", sphere_spin_scene());
   expect_same_scene("sphere_on_spheres", sphere_on_spheres_scene(BallShape::ellipsoid));
   expect_same_scene("ellipsoid_rolling", ellipsoid_scene(ellipsoid_on_plane(), 1.0));
+  expect_same_scene("ellipsoid_over_its_end", ellipsoid_scene(ellipsoid_over_its_end(), 1.0));
   expect_same_scene("ellipsoid_on_ellipsoid", ellipsoid_scene(ellipsoid_on_ellipsoid(), 0.8));
+  SpheresInBox ten;
+  ten.spheres = 10;
+  expect_same_scene("spheres_in_box", spheres_in_box_scene(ten));
 }
 
 }  // namespace
