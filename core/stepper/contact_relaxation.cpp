@@ -68,7 +68,7 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
   if (shortened) start_ = z;
   sweeps_.freeze(problem, touched_, chosen_, z);
   written_ = swept_;
-  sweep(problem, pace.sweeps, kSweepGain * std::min(residual_, 1.0));
+  sweep(pace.sweeps, kSweepGain * std::min(residual_, 1.0));
   sweeps_.write(problem, written_, chosen_, z);
   if (shortened) z = start_ + pace.part * (z - start_);
   for (const std::size_t i : touched_) {
@@ -87,10 +87,10 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
 
 /// Sweeps over what is chosen, and then, longer each time, over where impulses still change.
 template <int Dim>
-void ContactRelaxation<Dim>::sweep(const StepProblem<Dim>& problem, int limit, double tolerance) {
+void ContactRelaxation<Dim>::sweep(int limit, double tolerance) {
   int made = 0;
   for (int stage = kFirstStage; made < limit && !swept_.empty(); stage *= 2) {
-    made += sweeps_.run_accelerated(problem, swept_, std::min(stage, limit - made), tolerance);
+    made += sweeps_.run_accelerated(swept_, std::min(stage, limit - made), tolerance);
     narrow(tolerance);
   }
 }

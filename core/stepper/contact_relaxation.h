@@ -53,7 +53,7 @@ class ContactRelaxation {
 
   void bind(const StepProblem<Dim>& problem, Eigen::VectorXd& z);
   void relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z);
-  void sweep(const StepProblem<Dim>& problem, int limit, double tolerance);
+  void sweep(int limit, double tolerance);
   void narrow(double tolerance);
   void evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
   void judge(const StepProblem<Dim>& problem, int body, const Eigen::VectorXd& z);

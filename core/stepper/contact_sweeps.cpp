@@ -32,7 +32,7 @@ Angular<3> moment(const Vector<3>& r, const Vector<3>& force) { return r.cross(f
 template <int Dim>
 void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z) {
   freeze(problem, z);
-  for (int round = 0; round < sweeps; ++round) sweep_all(problem, round % 2 == 0);
+  for (int round = 0; round < sweeps; ++round) sweep_all(round % 2 == 0);
   write(problem, z);
 }
 
@@ -67,10 +67,8 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::span<const
 }
 
 template <int Dim>
-int ContactSweeps<Dim>::run_accelerated(const StepProblem<Dim>& problem,
-                                        std::span<const std::size_t> contacts, int limit, double tolerance) {
-  const double velocity = problem.scale().velocity;
-  const auto sweep_one = [&](std::size_t i) { sweep(contacts_[i], problem.contacts()[i].law.mu, velocity); };
+int ContactSweeps<Dim>::run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance) {
+  const auto sweep_one = [&](std::size_t i) { sweep(contacts_[i]); };
   for (const std::size_t i : contacts) courses_[i] = {.before = contacts_[i].impulse()};
   last_change_ = 0;
   int sweeps = 0;
@@ -111,12 +109,11 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, const Eigen::Ve
 }
 
 template <int Dim>
-void ContactSweeps<Dim>::sweep_all(const StepProblem<Dim>& problem, bool forward) {
-  const double velocity = problem.scale().velocity;
+void ContactSweeps<Dim>::sweep_all(bool forward) {
   for (JointRow& row : joints_) sweep(row);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const std::size_t at = forward ? i : contacts_.size() - 1 - i;
-    sweep(contacts_[at], problem.contacts()[at].law.mu, velocity);
+    sweep(contacts_[at]);
   }
 }
 
@@ -146,8 +143,8 @@ void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::si
                                         const Eigen::VectorXd& z) {
   Contact& contact = contacts_[i];
   const ContactState<Dim>& state = problem.state(i);
-  const double velocity = problem.scale().velocity;
-  contact.unit = problem.prepared(i).mass * velocity;
+  contact.unit = problem.prepared(i).mass * problem.scale().velocity;
+  contact.mu = problem.contacts()[i].law.mu;
   contact.semi_axes = problem.prepared(i).semi_axes;
   contact.place = problem.places(i);
   contact.normal = state.frame.normal;
@@ -170,17 +167,13 @@ void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::si
   }
   contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.normal.dot(moving);
   contact.normal_step = 1 / (contact.unit * contact.normal.dot(response * contact.normal));
-  double largest = 0;  // sum of a row of the friction's own matrix
   const Eigen::Matrix<double, kTangent, kTangent> along =
       contact.semi_axes.template head<kTangent>().asDiagonal() *
       (contact.tangents.transpose() * response * contact.tangents) *
       contact.semi_axes.template head<kTangent>().asDiagonal();
-  largest = along.cwiseAbs().rowwise().sum().maxCoeff();
-  if constexpr (Dim == 3) {
-    const double spin = contact.semi_axes[2] * turn;
-    largest = std::max(largest, contact.semi_axes[2] * spin);
-  }
-  contact.friction_step = largest > 0 ? velocity / (contact.unit * largest) : 0.0;
+  double largest = along.cwiseAbs().rowwise().sum().maxCoeff();
+  largest = std::max(largest, contact.semi_axes[kFriction - 1] * contact.semi_axes[kFriction - 1] * turn);
+  contact.friction_step = largest > 0 ? 1 / (contact.unit * largest) : 0.0;
   const ContactLayout& at = problem.layout().contact(i);
   contact.p = std::max(0.0, z[at.normal]);
   contact.y = z.template segment<kFriction>(at.friction);
@@ -302,14 +295,14 @@ void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change, boo
 }
 
 template <int Dim>
-void ContactSweeps<Dim>::sweep(Contact& contact, double mu, double velocity) {
+void ContactSweeps<Dim>::sweep(Contact& contact) {
   const Twist<Dim> relative = relative_velocity(contact);
   const double approach = contact.gap_velocity + contact.normal.dot(relative.template head<Dim>());
   const double p = std::max(0.0, contact.p - contact.normal_step * approach);
   if (p == 0 && contact.p == 0) return;  // most of those that are near: neither has friction
-  FrictionVector<Dim> y = contact.y - contact.friction_step / velocity * slip(contact, relative);
+  FrictionVector<Dim> y = contact.y - contact.friction_step * slip(contact, relative);
   const double length = y.norm();
-  if (length > mu * p) y *= mu * p / length;
+  if (length > contact.mu * p) y *= contact.mu * p / length;
   Impulse change;
   change.template head<kFriction>() = y - contact.y;
   change[kFriction] = p - contact.p;

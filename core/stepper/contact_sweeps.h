@@ -31,8 +31,7 @@ class ContactSweeps {
   /// pair, which many contacts that carry each other's load need; until a pair changes no impulse by more
   /// than `tolerance`, in the problem's units.
   /// @return  sweeps made, at most `limit`
-  int run_accelerated(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts, int limit,
-                      double tolerance);
+  int run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance);
   /// Largest change of an impulse of contact i in the last pair of sweeps over it.
   [[nodiscard]] double change(std::size_t i) const { return courses_[i].change; }
   /// Velocities of `bodies` and impulses of `contacts` into z.
@@ -60,9 +59,10 @@ class ContactSweeps {
     double unit = 1.0;                 ///< of impulses, m V [N s]
     double gap_velocity = 0.0;         ///< psi / h less what nu' adds to it [m/s]
     double normal_step = 0.0;          ///< p per [m/s]
-    double friction_step = 0.0;        ///< y per unit of w
+    double friction_step = 0.0;        ///< y per [m/s]
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
+    double mu = 0.0;
     Eigen::Matrix<double, Dim, kTangent> tangents = Eigen::Matrix<double, Dim, kTangent>::Zero();
     FrictionVector<Dim> semi_axes = FrictionVector<Dim>::Zero();
 
@@ -87,8 +87,8 @@ class ContactSweeps {
   void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void freeze_contact(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
   void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
-  void sweep_all(const StepProblem<Dim>& problem, bool forward);
-  void sweep(Contact& contact, double mu, double velocity);
+  void sweep_all(bool forward);
+  void sweep(Contact& contact);
   void sweep(JointRow& row);
   [[nodiscard]] double accelerate(std::span<const std::size_t> contacts);
   [[nodiscard]] Twist<Dim> relative_velocity(const Contact& contact) const;
