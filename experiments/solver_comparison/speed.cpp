@@ -252,7 +252,9 @@ std::string describe_trajectories(const Table& trajectories) {
     if (!cell(row, "siconos_best").empty()) scenes[cell(row, "scenario")][pair] = &row;
   }
   std::string text;
-  for (const auto& [scenario, rows] : scenes) {
+  for (const auto& scene : scenes) {
+    const std::string& scenario = scene.first;  // clang lets no lambda capture a structured binding
+    const auto& rows = scene.second;
     std::string line;
     const auto add = [&](const Key& pair, const char* what) {
       const auto found = rows.find(pair);
