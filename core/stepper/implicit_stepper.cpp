@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/model/errors.h"
+#include "core/stepper/step_start.h"
 
 namespace touchstone {
 
@@ -111,9 +112,6 @@ void ImplicitStepper<Dim>::collect_candidates() {
   contacts_.reserve(active_contacts_.size());
 }
 
-/// Contacts that were there in the last step start where the last steps lead, and so do velocities; where one
-/// is new the velocities are those of a free step and the new contact's points the closest ones of the pose
-/// that these lead to.
 template <int Dim>
 void ImplicitStepper<Dim>::start_from_memory(Eigen::VectorXd& z) {
   z.head(problem_.size()).setZero();
@@ -123,37 +121,8 @@ void ImplicitStepper<Dim>::start_from_memory(Eigen::VectorXd& z) {
   }
   // Extrapolation brings a start within the tolerance at once, where full Newton steps from the last solution
   // end far below it: the full problem, which is there to compare with, is to be as exact as it can.
-  const int allowed = options_.solver == ImplicitOptions::Solver::condensed ? WarmStart<Dim>::kDepth : 1;
-  const int depth = std::min(allowed, warm_start_.depth(problem_.bodies(), island_));
-  const bool constrained = !island_.empty() || !problem_.joints().empty();
-  if (depth > 0 && constrained) {
-    for (int place = 0; place < problem_.moving_bodies(); ++place) {
-      z.template segment<Dimension<Dim>::velocity>(problem_.layout().velocity(place)) =
-          warm_start_.velocity(problem_.body(place), depth);
-    }
-  } else {
-    problem_.free_velocity(z);
-  }
-  for (std::size_t i = 0; i < island_.size(); ++i) {
-    if (warm_start_.knows(island_[i])) {
-      recall(i, depth, z);
-    } else {
-      problem_.find_points(i, z);
-    }
-  }
-}
-
-template <int Dim>
-void ImplicitStepper<Dim>::recall(std::size_t i, int depth, Eigen::VectorXd& z) {
-  const ContactSolution<Dim>& memory = warm_start_.contact(island_[i], depth);
-  const ContactLayout& at = problem_.layout().contact(i);
-  const Vector<Dim> center = problem_.body_1_position(i, z);
-  problem_.set_normal_estimate(i, memory.normal);
-  problem_.set_points(i, center + memory.a_1, center + memory.a_2, z);
-  z.template segment<Dimension<Dim>::friction>(at.friction) = memory.y;
-  z[at.normal] = memory.p;
-  z[at.slip] = memory.s;
-  std::copy(memory.multipliers.begin(), memory.multipliers.end(), z.data() + at.multipliers_1);
+  const int depth = options_.solver == ImplicitOptions::Solver::condensed ? WarmStart<Dim>::kDepth : 1;
+  start_from(warm_start_, island_, depth, problem_, z);
 }
 
 /// What the current island's solution says of the end of the step.
@@ -161,19 +130,8 @@ template <int Dim>
 void ImplicitStepper<Dim>::keep_solution() {
   problem_.advance(z_, end_);
   for (std::size_t i = 0; i < island_.size(); ++i) {
-    const ContactLayout& at = problem_.layout().contact(i);
-    solved_contacts_[island_[i]] = problem_.impulse(i);
-    ContactSolution<Dim>& memory = warm_start_.next(island_[i]);
-    const Vector<Dim> center = problem_.body_1_position(i, z_);
-    memory.normal = solved_contacts_[island_[i]].normal;
-    memory.a_1 = problem_.point(i, 0) - center;
-    memory.a_2 = problem_.point(i, 1) - center;
-    memory.y = z_.template segment<Dimension<Dim>::friction>(at.friction);
-    memory.p = z_[at.normal];
-    memory.s = z_[at.slip];
-    const auto multipliers =
-        island_contacts_[i].side_1.multipliers() + island_contacts_[i].side_2.multipliers();
-    memory.multipliers.assign(z_.data() + at.multipliers_1, z_.data() + at.multipliers_1 + multipliers);
+    const ContactImpulse<Dim>& impulse = solved_contacts_[island_[i]] = problem_.impulse(i);
+    keep_contact(problem_, i, z_, impulse.normal, warm_start_.next(island_[i]));
   }
   for (const int joint : problem_.joints()) {
     const auto index = static_cast<std::size_t>(joint);

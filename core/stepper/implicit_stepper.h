@@ -45,7 +45,6 @@ class ImplicitStepper final : public Method<Dim> {
   [[nodiscard]] SolveReport solve_islands(double h);
   void select_island(const Islands::Island& island);
   void start_from_memory(Eigen::VectorXd& z);
-  void recall(std::size_t i, int depth, Eigen::VectorXd& z);
   void keep_solution();
   void accept();
 

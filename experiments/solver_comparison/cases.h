@@ -18,6 +18,9 @@ namespace touchstone::solver_comparison {
 /// it the case says `unsupported`.
 [[nodiscard]] bool is_for_family(const std::string& solver, const std::string& family);
 
+/// The same of one task of the family: `implicit_stepper` has its own start alone.
+[[nodiscard]] bool is_for_task(const std::string& solver, const Task& task);
+
 /// A solver runs in a process of its own with a limit on processor time, Siconos's with their output dropped.
 [[nodiscard]] harness::Case make_case(const std::string& solver, std::shared_ptr<const Task> task);
 

@@ -27,6 +27,12 @@ OrthantForm::OrthantForm(const MixedComplementarityProblem& problem)
     }
     parts_.push_back(part);
   }
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const Part& part = parts_[k];
+    as_it_is_ = as_it_is_ && part.index == static_cast<Index>(k) && part.offset == 0 && part.sign == 1 &&
+                part.beside < 0;
+  }
+  unused_.resize(size());
 }
 
 Eigen::VectorXd OrthantForm::from(const Eigen::VectorXd& z) {
@@ -51,10 +57,19 @@ Eigen::VectorXd OrthantForm::to(const Eigen::VectorXd& x) const {
 }
 
 void OrthantForm::evaluate(const double* x, double* f, double* jacobian) {
-  const auto at = [](std::size_t k) { return static_cast<Index>(k); };
-  for (std::size_t k = 0; k < parts_.size(); ++k)
-    z_[parts_[k].index] = parts_[k].offset + parts_[k].sign * x[k];
+  const auto count = static_cast<Index>(parts_.size());
+  if (as_it_is_) {
+    z_ = Eigen::Map<const Eigen::VectorXd>(x, count);
+  } else {
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      z_[parts_[k].index] = parts_[k].offset + parts_[k].sign * x[k];
+  }
   problem_.evaluate(z_, f_, jacobian == nullptr ? nullptr : &jacobian_);
+  if (as_it_is_) {
+    Eigen::Map<Eigen::VectorXd>(f, count) = f_;
+    if (jacobian != nullptr) Eigen::Map<Eigen::MatrixXd>(jacobian, count, count) = jacobian_;
+    return;
+  }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     const Part& part = parts_[k];
     f[k] = part.sign * f_[part.index];
@@ -62,12 +77,19 @@ void OrthantForm::evaluate(const double* x, double* f, double* jacobian) {
     f[k] += x[part.beside];
     f[part.beside] = part.width - x[k];
   }
-  if (jacobian == nullptr) return;
+  if (jacobian != nullptr) transform_jacobian(jacobian);
+}
+
+void OrthantForm::transform_jacobian(double* jacobian) const {
+  const auto at = [](std::size_t k) { return static_cast<Index>(k); };
   Eigen::Map<Eigen::MatrixXd> j(jacobian, size(), size());
-  j.setZero();
+  if (boxed_ > 0) j.setZero();
+  for (std::size_t l = 0; l < parts_.size(); ++l) {
+    const auto column = jacobian_.col(parts_[l].index);
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      j(at(k), at(l)) = parts_[k].sign * parts_[l].sign * column[parts_[k].index];
+  }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
-    for (std::size_t l = 0; l < parts_.size(); ++l)
-      j(at(k), at(l)) = parts_[k].sign * jacobian_(parts_[k].index, parts_[l].index) * parts_[l].sign;
     if (parts_[k].beside < 0) continue;
     j(at(k), parts_[k].beside) = 1;
     j(parts_[k].beside, at(k)) = -1;

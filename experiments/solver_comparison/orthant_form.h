@@ -28,8 +28,11 @@ class OrthantForm {
 
   /// size() entries each; jacobian column-major, size() x size(), or null.
   void evaluate(const double* x, double* f, double* jacobian);
+  void evaluate_jacobian(const double* x, double* jacobian) { evaluate(x, unused_.data(), jacobian); }
 
  private:
+  void transform_jacobian(double* jacobian) const;
+
   /// Unknown z_index = offset + sign x, and where the unknown beside it stands, -1 if it has none.
   struct Part {
     Eigen::Index index = 0;
@@ -43,7 +46,9 @@ class OrthantForm {
   std::vector<Part> parts_;  ///< in the order of x
   Eigen::Index free_ = 0;
   Eigen::Index boxed_ = 0;
+  bool as_it_is_ = true;  ///< x is z: nothing is reordered, moved, or turned
   Eigen::VectorXd z_, f_;
+  Eigen::VectorXd unused_;  ///< rows that were not asked for
   Eigen::MatrixXd jacobian_;
 };
 

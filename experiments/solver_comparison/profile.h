@@ -14,11 +14,14 @@ namespace touchstone::solver_comparison {
 struct Effort {
   std::string family;
   std::string scenario;
+  std::string start;
   std::string problem;  ///< tells it from the others of its family and scenario
   std::string method;
   bool solved = false;
   double iterations = std::numeric_limits<double>::quiet_NaN();
-  double seconds = std::numeric_limits<double>::quiet_NaN();
+  double seconds = std::numeric_limits<double>::quiet_NaN();  ///< of a trajectory the median of its steps
+  double mean_seconds = std::numeric_limits<double>::quiet_NaN();  ///< of a trajectory, a step
+  long steps = 1;                                                  ///< of a trajectory
 };
 
 /// The efforts in summary.csv and solve_timing.csv of a folder. Cases that were skipped are left out.
@@ -34,13 +37,8 @@ struct Effort {
 [[nodiscard]] harness::Table performance_profile(const std::vector<Effort>& efforts, double Effort::*cost,
                                                  double least);
 
-/// How many times as long as each of our solvers the fastest one of Siconos takes, problem by problem; by
-/// family, and for steps by scene too (`scenario` is empty for all of a family).
-/// Columns: family, scenario, method, solved (by ours), compared (by one of Siconos's too), median_ratio,
-/// smallest_ratio, largest_ratio, median_s (ours), median_best_s (theirs), most_often_best.
-[[nodiscard]] harness::Table speed_ratios(const std::vector<Effort>& efforts);
-
-/// Writes profile.csv, profile_timing.csv and speed_timing.csv of what is in the folder.
+/// Writes profile.csv, profile_timing.csv, speed_timing.csv and trajectory_timing.csv of what is in the
+/// folder.
 /// @returns lines for a person: solved shares, and how the times compare
 [[nodiscard]] std::string write_profiles(const std::filesystem::path& folder);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/model/errors.h"
 #include "experiments/problems/literature.h"
 #include "experiments/problems/random_lcp.h"
+#include "experiments/problems/trajectory.h"
 #include "experiments/scene_file/scene_file.h"
 
 namespace touchstone::solver_comparison {
@@ -16,45 +18,52 @@ namespace {
 constexpr long kSeeds = 3;
 
 /// A scene, the step size [s] and which of its steps are recorded: the first with a contact's impulse, and
-/// some on the way.
+/// some on the way; and so many from the start as a trajectory, 0 for none.
 struct Recording {
   const char* scene;
   double h;
   std::vector<int> steps;
+  int trajectory;
 };
 
 const std::vector<Recording>& recordings() {
   static const std::vector<Recording> all = {
-      {"box_on_incline", 0.01, {2, 10, 50}},
-      {"disc_rolling", 0.01, {2, 10, 50}},
-      {"ellipsoid_on_ellipsoid", 0.01, {2, 10, 30, 60}},
-      {"ellipsoid_rolling", 0.01, {2, 10, 50, 100}},
-      {"rattleback", 0.01, {2, 10, 50}},
-      {"sphere_on_spheres", 0.01, {2, 10, 50, 100, 150}},
-      {"sphere_spin", 0.01, {2, 50, 150}},
-      {"ten_bodies", 0.005, {98, 100, 102}},
-      {"tippe_top", 0.01, {2, 10, 50}},
+      {"box_on_incline", 0.01, {2, 10, 50}, 100},
+      {"disc_rolling", 0.01, {2, 10, 50}, 100},
+      {"ellipsoid_on_ellipsoid", 0.01, {2, 10, 30, 60}, 100},
+      {"ellipsoid_rolling", 0.01, {2, 10, 50, 100}, 100},
+      {"rattleback", 0.01, {2, 10, 50}, 100},
+      {"sphere_on_spheres", 0.01, {2, 10, 50, 100, 150}, 370},
+      {"sphere_spin", 0.01, {2, 50, 150}, 150},
+      {"ten_bodies", 0.005, {98, 100, 102}, 0},
+      {"tippe_top", 0.01, {2, 10, 50}, 100},
   };
   return all;
 }
 
 template <int Dim>
+Task step_task(const Recording& recording, const problems::RecordedStep<Dim>& recorded) {
+  const auto step = std::make_shared<const problems::RecordedStep<Dim>>(recorded);
+  Task task;
+  task.family = "step";
+  task.problem = recording.scene;
+  task.item = step->step;
+  task.start = step->start;
+  task.h = recording.h;
+  task.z = step->z;
+  task.make = [step] { return std::make_unique<StepProblem<Dim>>(step->problem); };
+  task.step = step;
+  return task;
+}
+
+template <int Dim>
 void add_steps(const Recording& recording, const Scene<Dim>& scene, std::vector<Task>& tasks) {
   for (const auto& recorded : problems::record_steps(scene, recording.h, recording.steps)) {
-    const auto step = std::make_shared<const problems::RecordedStep<Dim>>(recorded);
-    Task task;
-    task.family = "step";
-    task.problem = recording.scene;
-    task.item = step->step;
-    task.start = step->start;
-    task.h = recording.h;
-    task.z = step->z;
-    task.make = [step] { return std::make_unique<StepProblem<Dim>>(step->problem); };
-    task.step = step;
+    Task task = step_task(recording, recorded);
     tasks.push_back(task);
     if constexpr (Dim == 3) {
-      if (step->start != "cold") continue;  // the same geometry from either start
-      auto frozen = problems::FrozenContactProblem::from(step->problem);
+      if (recorded.start != "cold") continue;  // the same geometry from either start
+      auto frozen = problems::FrozenContactProblem::from(recorded.problem);
       if (!frozen) continue;
       const auto shared = std::make_shared<const problems::FrozenContactProblem>(std::move(*frozen));
       task.family = "frozen_step";
@@ -66,6 +75,35 @@ void add_steps(const Recording& recording, const Scene<Dim>& scene, std::vector<
       tasks.push_back(task);
     }
   }
+}
+
+template <int Dim>
+void add_trajectory(const Recording& recording, const Scene<Dim>& scene, std::vector<Task>& tasks) {
+  const auto motion =
+      std::make_shared<const Motion<Dim>>(Motion<Dim>{scene, recording.h, recording.trajectory});
+  std::map<std::string, Task> of_start;
+  for (const auto& recorded : problems::record_trajectory(scene, recording.h, recording.trajectory)) {
+    const Task part = step_task(recording, recorded);
+    Task& whole = of_start.try_emplace(part.start, part).first->second;
+    whole.parts.push_back(part);
+  }
+  for (auto& [start, whole] : of_start) {
+    whole.family = "trajectory";
+    whole.item = 0;
+    whole.motion = motion;
+    tasks.push_back(std::move(whole));
+  }
+}
+
+const Recording& recording_of(const std::string& scene) {
+  const auto found = std::ranges::find(recordings(), scene, &Recording::scene);
+  if (found == recordings().end())
+    throw InputError("--scenes", scene, fmt::format("{}", fmt::join(recorded_scenes(), ", ")));
+  return *found;
+}
+
+auto read(const Recording& recording) {
+  return scene_file::read_scene(fmt::format("{}/{}.toml", SCENES, recording.scene));
 }
 
 }  // namespace
@@ -123,12 +161,17 @@ std::vector<std::string> recorded_scenes() {
 }
 
 std::vector<Task> step_tasks(const std::string& scene) {
-  const auto recording = std::ranges::find(recordings(), scene, &Recording::scene);
-  if (recording == recordings().end())
-    throw InputError("--scenes", scene, fmt::format("{}", fmt::join(recorded_scenes(), ", ")));
+  const Recording& recording = recording_of(scene);
   std::vector<Task> tasks;
-  const auto read = scene_file::read_scene(fmt::format("{}/{}.toml", SCENES, scene));
-  std::visit([&](const auto& found) { add_steps(*recording, found, tasks); }, read);
+  std::visit([&](const auto& found) { add_steps(recording, found, tasks); }, read(recording));
+  return tasks;
+}
+
+std::vector<Task> trajectory_tasks(const std::string& scene) {
+  const Recording& recording = recording_of(scene);
+  std::vector<Task> tasks;
+  if (recording.trajectory == 0) return tasks;
+  std::visit([&](const auto& found) { add_trajectory(recording, found, tasks); }, read(recording));
   return tasks;
 }
 

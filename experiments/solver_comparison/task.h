@@ -18,9 +18,19 @@ namespace touchstone::solver_comparison {
 template <int Dim>
 using StepPointer = std::shared_ptr<const problems::RecordedStep<Dim>>;
 
-/// A problem with a start.
+/// A motion that the stepper itself goes through.
+template <int Dim>
+struct Motion {
+  Scene<Dim> scene;
+  double h = 0.0;  ///< [s]
+  int steps = 0;   ///< of which the first is not timed
+};
+template <int Dim>
+using MotionPointer = std::shared_ptr<const Motion<Dim>>;
+
+/// A problem with a start, or a trajectory of such problems.
 struct Task {
-  std::string family;   ///< literature, random_lcp, step, frozen_step
+  std::string family;   ///< literature, random_lcp, step, frozen_step, trajectory
   std::string problem;  ///< its name; of a step, its scene
   long item = 0;        ///< seed of a random problem, number of a step
   std::string start;
@@ -34,6 +44,10 @@ struct Task {
   std::variant<std::monostate, StepPointer<2>, StepPointer<3>> step;
   /// The same as data of a frictional contact problem.
   std::shared_ptr<const problems::FrozenContactProblem> frozen;
+  /// Steps of a trajectory, each a problem with its start; what is above is then those of the first.
+  std::vector<Task> parts;
+  /// The same trajectory as a motion.
+  std::variant<std::monostate, MotionPointer<2>, MotionPointer<3>> motion;
 
   [[nodiscard]] Eigen::Index size() const { return z.size(); }
 };
@@ -43,6 +57,9 @@ struct Task {
 [[nodiscard]] std::vector<Task> random_tasks(const std::vector<int>& sizes);
 /// Steps of a scene file in SCENES (experiments/scenes), `step` and `frozen_step`.
 [[nodiscard]] std::vector<Task> step_tasks(const std::string& scene);
+/// The first seconds of a scene, every step: family `trajectory`, one task for each kind of start: `last`,
+/// the last solution; `extrapolated`, as the stepper starts. None for a scene of several moving bodies.
+[[nodiscard]] std::vector<Task> trajectory_tasks(const std::string& scene);
 /// The scenes that steps are recorded of.
 [[nodiscard]] std::vector<std::string> recorded_scenes();
 

@@ -1,8 +1,8 @@
 #include "experiments/solver_comparison/timing.h"
 
 #include <algorithm>
-#include <array>
 #include <ctime>
+#include <limits>
 
 namespace touchstone::solver_comparison {
 
@@ -14,15 +14,20 @@ double thread_seconds() {
 
 double clock_seconds() {
   static const double seconds = [] {
-    std::array<double, 101> times{};
-    for (double& time : times) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 1001; ++i) {
       const double start = thread_seconds();
-      time = thread_seconds() - start;
+      least = std::min(least, thread_seconds() - start);
     }
-    std::ranges::nth_element(times, times.begin() + times.size() / 2);
-    return times[times.size() / 2];
+    return least;
   }();
   return seconds;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
 }
 
 }  // namespace touchstone::solver_comparison

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
 namespace touchstone::solver_comparison {
@@ -20,21 +19,24 @@ double time_of(const Work& work) {
   return std::max(thread_seconds() - start - clock_seconds(), 0.0);
 }
 
-/// Time of one solve [s]: `first`, if that was long; else the median of so many repetitions by `solve`, which
-/// returns what it took, as make 5 ms together, 3 to 101 of them.
+/// Time of one solve [s]: `first`, if that was longer than `enough`; else the least of so many repetitions by
+/// `solve`, which returns what it took, as make `enough` together, 3 to 101 of them. What else goes on in the
+/// machine can only add to a time.
 template <typename Solve>
-double typical_time(double first, const Solve& solve) {
-  constexpr double kEnough = 5e-3;
-  constexpr std::size_t kFewest = 3, kMost = 101;
-  if (first > kEnough) return first;
-  std::vector<double> times;
-  for (double total = 0; times.size() < kMost && (total < kEnough || times.size() < kFewest);) {
-    times.push_back(solve());
-    total += times.back();
+double least_time(double first, double enough, const Solve& solve) {
+  constexpr int kFewest = 3, kMost = 101;
+  if (first > enough) return first;
+  double least = first;
+  double total = 0;
+  for (int i = 0; i < kMost && (total < enough || i < kFewest); ++i) {
+    const double time = solve();
+    least = std::min(least, time);
+    total += time;
   }
-  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
-  std::nth_element(times.begin(), middle, times.end());
-  return *middle;
+  return least;
 }
+
+/// @param values  one at least; of an even number of them the upper one of the two in the middle
+[[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace touchstone::solver_comparison

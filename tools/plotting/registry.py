@@ -30,6 +30,7 @@ EXPERIMENTS = {
     "solver_comparison": {
         "profile": solver_comparison.iterations,
         "profile_timing": solver_comparison.time,
+        "trajectory_timing": solver_comparison.trajectories,
     },
     "sphere_on_spheres": {
         "figure_6": sphere_on_spheres.figure_6,

@@ -1,4 +1,5 @@
-"""Performance profiles of complementarity solvers: what share of the problems each solves, at what cost beside the best."""
+"""Complementarity solvers: performance profiles (the share of problems each solves, by cost beside the best), and what a
+step of a trajectory takes."""
 
 from . import style
 from .table import read_table
@@ -97,3 +98,71 @@ def time(directory):
         "Performance profiles (Dolan and Moré 2002) over problems that have a solution, from every start; as measured in this "
         "run, on one core. Solved: natural\nresidual of at most 1e-10, whatever the solver says. A solver stays below 1 where "
         "it fails or is not for the problem.")
+
+
+# What a step takes: (method, start, siconos_start, column of the time, name, marker, colour, filled).
+MARKS = [
+    ("implicit_stepper", "extrapolated", "last", "median_s", "our stepper, all of a step", "s", style.BLACK, True),
+    ("elimination", "extrapolated", "extrapolated", "median_s", "elimination from the extrapolated start", "o",
+     style.VERMILION, True),
+    ("elimination", "last", "last", "median_s", "elimination from the last solution", "o", style.VERMILION, False),
+    ("elimination", "extrapolated", "extrapolated", "siconos_median_s",
+     "Siconos's fastest that solves every step, from our extrapolated start", "D", style.BLUE, True),
+    ("elimination", "last", "last", "siconos_median_s", "the same from the last solution", "D", style.BLUE, False),
+]
+TRAJECTORY_COLUMNS = ["scenario", "method", "start", "siconos_start", "median_s", "siconos_median_s", "median_ratio"]
+
+# Ratios written beside each scene: (method, start, siconos_start, heading).
+RATIOS = [
+    ("elimination", "last", "last", "both from the\nlast solution"),
+    ("elimination", "extrapolated", "extrapolated", "both from the\nextrapolated start"),
+    ("elimination", "extrapolated", "last", "each from\nits own start"),
+    ("implicit_stepper", "extrapolated", "last", "our whole step,\ntheir solve alone"),
+]
+
+
+def trajectories(directory):
+    """Of a run's own measurement, as time(); none without Siconos either."""
+    path = directory / "trajectory_timing.csv"
+    if not path.exists():
+        return None
+    table = read_table(path, TRAJECTORY_COLUMNS)
+    scenes = sorted({scene for scene in table.texts("scenario") if scene}, reverse=True)
+    figure, axes = style.plt.subplots(figsize=(13.4, 5.4))
+    figure.subplots_adjust(left=0.15, right=0.66, bottom=0.26, top=0.76)
+    for method, start, theirs, column, name, marker, colour, filled in MARKS:
+        rows = table.where(method=method, start=start, siconos_start=theirs)
+        points = [(1e6 * value, scenes.index(scene))
+                  for scene, value in zip(rows.texts("scenario"), rows.numbers(column)) if scene and value > 0]
+        if not points:
+            continue
+        axes.plot(*zip(*points), marker, color=colour, markerfacecolor=colour if filled else "white", markersize=7.5,
+                  markeredgewidth=1.6, label=name)
+    axes.set_xscale("log")
+    axes.xaxis.set_major_formatter(style.plt.FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.set_xlabel("processor time of a step [\u00b5s], median over the steps")
+    axes.set_yticks(range(len(scenes)), [scene.replace("_", " ") for scene in scenes])
+    axes.set_ylim(-0.6, len(scenes) - 0.4)
+    axes.legend(loc="upper left", bbox_to_anchor=(-0.19, -0.15), ncol=2, frameon=False)
+    write_ratios(axes, table, scenes)
+    style.headline(
+        figure, "What an implicit step takes, ours and Siconos's, in one run",
+        "Every step of a trajectory at h = 0.01 s, one problem each, solved to a natural residual of 1e-10 by all; the rows are "
+        "evaluated by the same code. Siconos: the fastest single\nsolver that solves every step. Our stepper's own time "
+        "includes the search for contacts, the start and keeping the solution, at its tolerance of 1e-13.")
+    return figure
+
+
+def write_ratios(axes, table, scenes):
+    """Columns right of the axes: Siconos's time over ours."""
+    for column, (method, start, theirs, heading) in enumerate(RATIOS):
+        x = 1.07 + 0.155 * column
+        axes.text(x, 1.03, heading, transform=axes.transAxes, ha="center", va="bottom", fontsize=8.5)
+        rows = table.where(method=method, start=start, siconos_start=theirs)
+        for scene, ratio in zip(rows.texts("scenario"), rows.numbers("median_ratio")):
+            if scene and ratio > 0:
+                axes.text(x, scenes.index(scene), f"{ratio:.1f}" if ratio < 10 else f"{ratio:.0f}",
+                          transform=axes.get_yaxis_transform(), ha="center", va="center",
+                          fontweight="bold" if ratio >= 5 else "normal")
+    axes.text(1.07 - 0.06, 1.17, "Siconos's time over ours (bold: 5 and more)", transform=axes.transAxes, ha="left",
+              fontsize=9.5, fontweight="bold")

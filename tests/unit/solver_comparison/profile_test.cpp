@@ -2,19 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/solver_comparison/efforts.h"
+
 namespace touchstone::solver_comparison {
 namespace {
 
 using harness::Row;
 using harness::Table;
 
-Effort solved(const std::string& problem, const std::string& method, double iterations, double seconds) {
-  return {"step", "balls", problem, method, true, iterations, seconds};
-}
-
-Effort unsolved(const std::string& problem, const std::string& method) {
-  return {.family = "step", .scenario = "balls", .problem = problem, .method = method};
-}
+using test::solved;
+using test::unsolved;
 
 /// Three problems: two that both solve, one that only `a` does.
 std::vector<Effort> efforts() {
@@ -46,28 +43,6 @@ TEST(Profile, AMethodThatSolvesNothingHasARow) {
   const Table table =
       performance_profile({solved("1", "a", 2, 1), unsolved("1", "b")}, &Effort::iterations, 1.0);
   EXPECT_EQ(table.rows.back(), (Row{"step", "b", "1", "0"}));
-}
-
-TEST(Speed, ComparesWithTheFastestOfSiconosProblemByProblem) {
-  const Table table = speed_ratios(efforts());
-  ASSERT_EQ(table.rows.size(), 2u);  // all of the family, and its only scene
-  EXPECT_EQ(table.rows[0][1], "");
-  EXPECT_EQ(table.rows[1][1], "balls");
-  const Row& row = table.rows[0];
-  const auto cell = [&](const char* column) { return row[table.column(column, "t")]; };
-  EXPECT_EQ(cell("method"), "a");
-  EXPECT_EQ(cell("solved"), "3");
-  EXPECT_EQ(cell("compared"), "2") << "nobody of Siconos solved the third";
-  EXPECT_EQ(cell("smallest_ratio"), "0.5");  // problem 2: 1 s over 2 s
-  EXPECT_EQ(cell("largest_ratio"), "3");     // problem 1: 3 s over 1 s
-}
-
-TEST(Speed, IsEmptyWhereNothingIsCompared) {
-  const Table table = speed_ratios({solved("1", "a", 2, 1), unsolved("1", "siconos_b")});
-  ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.rows[0][table.column("compared", "t")], "0");
-  EXPECT_EQ(table.rows[0][table.column("median_ratio", "t")], "");
-  EXPECT_TRUE(speed_ratios({}).rows.empty());
 }
 
 }  // namespace

@@ -76,8 +76,30 @@ TEST(SolverComparison, StepsAreSolvedByBoth) {
   EXPECT_EQ(std::ranges::count_if(
                 table.rows, [&](const Row& row) { return cell(table, row, "method") == "elimination"; }),
             6);
-  EXPECT_EQ(read_csv(scratch / "out/speed_timing.csv").header[5], "median_ratio");
+  EXPECT_EQ(read_csv(scratch / "out/speed_timing.csv").header[6], "median_ratio");
   EXPECT_NE(run.out.find("elimination"), std::string::npos);
+}
+
+TEST(SolverComparison, EveryStepOfATrajectoryIsSolvedByTheStepperAndBySiconos) {
+  const Scratch scratch;
+  const Finished run = run_program(
+      scratch / "out", {"--families", "trajectory", "--scenes", "sphere_spin,ten_bodies", "--methods",
+                        "elimination,implicit_stepper,semismooth_newton,siconos_mcp_fb"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Table table = read_csv(scratch / "out/summary.csv");
+  ASSERT_EQ(table.rows.size(), 5u)
+      << "the stepper has its own start alone, a pile is none of one problem a step";
+  const bool with_siconos = !siconos_version().empty();
+  for (const Row& row : table.rows) {
+    if (cell(table, row, "status") == "skipped") continue;
+    EXPECT_EQ(cell(table, row, "problems"), "149");
+    EXPECT_EQ(cell(table, row, "solved_problems"), "149") << cell(table, row, "method");
+  }
+  const Table ratios = read_csv(scratch / "out/trajectory_timing.csv");
+  ASSERT_EQ(ratios.rows.size(),
+            10u);  // two kinds of ours, two pairs of starts, and elimination's third; all scenes
+  for (const Row& row : ratios.rows) EXPECT_EQ(cell(ratios, row, "median_ratio").empty(), !with_siconos);
+  EXPECT_EQ(run.out.find("all scenes") != std::string::npos, with_siconos);
 }
 
 TEST(SolverComparison, TablesDoNotDependOnTheNumberOfJobs) {
