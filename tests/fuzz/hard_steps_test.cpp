@@ -16,7 +16,6 @@ namespace {
 
 constexpr double kCertified = 1e-10;
 constexpr int kStarts = 2;  ///< of each mode
-constexpr std::uint64_t kSeed = 1;
 
 struct HardStep {
   std::string scene;  ///< file name without extension
@@ -64,7 +63,7 @@ TEST_P(HardSteps, AreSolvedAndCertifiedOrRefused) {
         }
         EXPECT_EQ(report.reason, "jammed: impulses grow without bound");
         StepProblem<Dim> island = stepper.problem();
-        const ModeReport modes = search_modes(island, kStarts, kSeed);
+        const ModeReport modes = search_modes(island, {.starts = kStarts});
         // That the search solves the modes' equations is what makes it count that no root fulfils the
         // inequalities as well; by far, against what would be certified.
         EXPECT_GE(modes.solved_modes, modes.modes / 2);
@@ -87,7 +86,7 @@ TEST(ModeSearch, FindsTheSolutionsOfOrdinarySteps) {
     StepProblem<2> island = stepper.problem();
     if (island.contacts().empty() || island.contacts().size() > 2) continue;
     ++searched;
-    EXPECT_LE(search_modes(island, 5, kSeed).least_violation, kCertified) << "seed " << seed;
+    EXPECT_LE(search_modes(island, {.starts = 5}).least_violation, kCertified) << "seed " << seed;
   }
 }
 
