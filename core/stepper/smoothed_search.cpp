@@ -31,8 +31,6 @@ constexpr int kLastSteps = 8;             ///< from the end of the path
 constexpr double kLost = 1e-2;      ///< residual of closest points that a line search should not have to mend
 constexpr double kPoints = 1e-13;   ///< residual to which they are found
 constexpr int kPointSteps = 10;     ///< Newton steps to them
-constexpr double kRegular = 1e-8;   ///< smallest pivot, relative to its column
-constexpr double kSpurious = 2.0;   ///< residual of points that satisfy their rows and are no closest points
 constexpr double kHopeless = 10.0;  ///< residual from which Newton's method is not tried
 
 }  // namespace
@@ -42,20 +40,21 @@ constexpr double kHopeless = 10.0;  ///< residual from which Newton's method is 
 /// itself does.
 template <int Dim>
 SolveReport CondensedNewton<Dim>::smoothed_search(Eigen::VectorXd& z) {
-  strategy_ = {.line_search = true, .follows = true};
   SolveReport report;
   Stage stage;
-  smoothing_ = kFirstSmoothing;
+  set_strategy({.line_search = true, .follows = true});
+  set_smoothing(kFirstSmoothing);
   follow_points(z);
-  set_smoothing(kFirstSmoothing, z);
+  system_.evaluate(z);
   const int limit = std::min(kPathSteps, options_.max_iterations);
-  while (smoothing_ >= kLastSmoothing && report.iterations < limit && std::isfinite(merit_)) {
-    if (!newton_step(z)) break;
+  while (smoothing() >= kLastSmoothing && report.iterations < limit && std::isfinite(system_.merit())) {
+    if (!system_.newton_step(z)) break;
     ++report.iterations;
     ++stage.steps;
     if (!(advance(false, stage.steps, z) ? sharpen(stage, z) : retreat(stage, z))) break;
   }
-  set_smoothing(0.0, z);
+  set_smoothing(0.0);
+  system_.evaluate(z);
   const int path = report.iterations;
   report = search({.damps = true, .limit = std::min(kLastSteps, options_.max_iterations)}, z);
   report.iterations += path;
@@ -63,23 +62,24 @@ SolveReport CondensedNewton<Dim>::smoothed_search(Eigen::VectorXd& z) {
 }
 
 template <int Dim>
-void CondensedNewton<Dim>::set_smoothing(double smoothing, Eigen::VectorXd& z) {
-  smoothing_ = smoothing;
-  problem_->set_smoothing(smoothing);
+void CondensedNewton<Dim>::set_smoothing(double smoothing) {
+  CondensedForm form = system_.form();
+  form.smoothing = smoothing;
+  system_.set_form(form);
   recent_merits_.clear();
-  evaluate(z);
 }
 
 /// On to the next stage if this one is solved.
 template <int Dim>
 bool CondensedNewton<Dim>::sharpen(Stage& stage, Eigen::VectorXd& z) {
-  if (!(std::sqrt(2 * merit_) <= smoothing_)) return true;
+  if (!(std::sqrt(2 * system_.merit()) <= smoothing())) return true;
   best_.head(problem_->size()) = z.head(problem_->size());
   if (stage.steps <= kQuick) stage.ratio = std::max(kSharpest, stage.ratio * std::sqrt(stage.ratio));
   if (stage.steps > kSlow) stage.ratio = std::min(kGentle, std::sqrt(stage.ratio));
   stage.steps = 0;
-  stage.solved = smoothing_;
-  set_smoothing(stage.ratio * smoothing_, z);
+  stage.solved = smoothing();
+  set_smoothing(stage.ratio * stage.solved);
+  system_.evaluate(z);
   return true;
 }
 
@@ -90,7 +90,8 @@ bool CondensedNewton<Dim>::retreat(Stage& stage, Eigen::VectorXd& z) {
   if (stage.solved == 0 || stage.ratio > kGentlest) return false;
   z.head(problem_->size()) = best_.head(problem_->size());
   stage.steps = 0;
-  set_smoothing(stage.ratio * stage.solved, z);
+  set_smoothing(stage.ratio * stage.solved);
+  system_.evaluate(z);
   return true;
 }
 
@@ -105,56 +106,19 @@ void CondensedNewton<Dim>::follow_points(Eigen::VectorXd& z) {
 /// Where they are not unique any will do.
 template <int Dim>
 void CondensedNewton<Dim>::follow(std::size_t i, Eigen::VectorXd& z) {
-  double residual = points_residual(i, z);
+  double residual = system_.points_residual(i, z);
   if (residual <= kLost) return;
   for (const bool cold : {false, true}) {
     if (cold) {
       problem_->find_points(i, z);
-      residual = points_residual(i, z);
+      residual = system_.points_residual(i, z);
     }
     for (int k = 0; k < kPointSteps && residual > kPoints && residual < kHopeless; ++k) {
-      if (problem_->is_spurious(i) || !points_step(i, z)) break;
-      residual = points_residual(i, z);
+      if (problem_->is_spurious(i) || !system_.points_step(i, z)) break;
+      residual = system_.points_residual(i, z);
     }
     if (residual <= kPoints) return;
   }
-}
-
-/// Of a contact's own rows of points and multipliers at z; its block then holds them with derivatives.
-template <int Dim>
-double CondensedNewton<Dim>::points_residual(std::size_t i, const Eigen::VectorXd& z) {
-  StepBlock<Dim>& block = elements_[i].block;
-  const Eigen::Index first = problem_->layout().contact(i).multipliers_1;
-  problem_->evaluate_state(i, z);
-  problem_->contact_block(i, true, block);
-  double residual = problem_->is_spurious(i) ? kSpurious : 0.0;
-  for (Eigen::Index r = block.own; r < block.at.friction; ++r)
-    residual = std::max(residual, std::abs(block.f[r]));
-  for (Eigen::Index r = block.at.multipliers_1; r < block.size; ++r) {
-    const double multiplier = z[first + r - block.at.multipliers_1];
-    const double value = by_active_set() ? std::min(multiplier, block.f[r])
-                                         : FischerBurmeisterTerm(multiplier, block.f[r], smoothing_).value;
-    residual = std::max(residual, std::abs(value));
-  }
-  return residual;
-}
-
-/// A Newton step of a contact's points and multipliers alone, after points_residual(). False if singular.
-template <int Dim>
-bool CondensedNewton<Dim>::points_step(std::size_t i, Eigen::VectorXd& z) {
-  Element& element = elements_[i];
-  choose_rows(element, i, z);
-  set_rows(element, i, z, true);
-  list_unknowns(element);
-  fill_eliminated(element);
-  if (!element.lu.factor(kRegular)) return false;
-  const std::size_t e = element.eliminated.size();
-  for (std::size_t r = 0; r < e; ++r)
-    element.offset[static_cast<Eigen::Index>(r)] = element.block.f[element.eliminated[r]];
-  element.lu.solve(element.offset.data());
-  for (std::size_t r = 0; r < e; ++r)
-    z[column_in_z(i, element.eliminated[r])] -= element.offset[static_cast<Eigen::Index>(r)];
-  return true;
 }
 
 template SolveReport CondensedNewton<2>::smoothed_search(Eigen::VectorXd&);

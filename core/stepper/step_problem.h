@@ -109,6 +109,8 @@ class StepProblem final : public MixedComplementarityProblem {
   /// not);
   /// - f(a_2) >= 0 (Eq. 6) holds of a body that is through another one, since a_2 is then outside again.
   [[nodiscard]] bool is_spurious(std::size_t i) const;
+  /// Counts as the residual of such points: N_1 is n where it should be -n.
+  static constexpr double kSpuriousResidual = 2.0;
   /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
   /// s].
   [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
