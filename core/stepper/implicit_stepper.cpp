@@ -97,8 +97,9 @@ SolveReport ImplicitStepper<Dim>::solve_islands(double h, bool& may_leave_out) {
   islands_.split<Dim>(scene_, active_contacts_);
   problem_.begin(state_, h);
   const typename IslandSolver<Dim>::Start start = [this](Eigen::VectorXd& z) { start_from_memory(z); };
-  const typename IslandSolver<Dim>::GivesWay gives_way = [this, h, &may_leave_out] {
-    const bool leaves_out = may_leave_out && candidates_.leave_out_far(state_, h);
+  // Two pointers, no more: what a std::function holds without an allocation.
+  const typename IslandSolver<Dim>::GivesWay gives_way = [this, &may_leave_out] {
+    const bool leaves_out = may_leave_out && candidates_.leave_out_far(state_, problem_.step_size());
     may_leave_out = may_leave_out && !leaves_out;
     return leaves_out;
   };

@@ -155,7 +155,7 @@ bool explain(const Scene<Dim>& scene, double h, int starts) {
   fmt::print("  modes      {} of {} solved as equations, {} roots, {:.0f} s\n", modes.solved_modes,
              modes.modes, modes.roots, seconds);
   fmt::print("  best root  {}: misses {} by {:.1e}\n", modes.best_mode, modes.missed, modes.least_violation);
-  return wedge && wedge->imbalance < kSelfStress && wedge->use_of_cone < 1 && wedge->drift < 0 &&
+  return wedge && wedge->imbalance < kSelfStress && wedge->use_of_cone < 1 && wedge->drift < -kSolution &&
          modes.least_violation > kSolution;
 }
 
