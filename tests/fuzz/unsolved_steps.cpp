@@ -140,11 +140,10 @@ bool explain(const Scene<Dim>& scene, double h, int starts) {
     print_wedge(scene, problem, *wedge);
     search.from.push_back(end);
   }
-  for (int k = 1; k <= kHalvings; ++k) {
-    if (!is_solved(scene, std::ldexp(h, -k)) && k < kHalvings) continue;
-    fmt::print("  solved with h / {}\n", 1 << k);
-    break;
-  }
+  int halvings = 1;
+  while (halvings <= kHalvings && !is_solved(scene, std::ldexp(h, -halvings))) ++halvings;
+  fmt::print("  {} with h / {}\n", halvings <= kHalvings ? "solved" : "not solved",
+             1 << std::min(halvings, kHalvings));
   fmt::print("  solved with up to {:.3f} of the friction\n", most_friction(scene, h));
   std::fflush(stdout);
   const auto began = std::chrono::steady_clock::now();
