@@ -26,7 +26,7 @@ using namespace touchstone;
 
 constexpr double kSolution = 1e-10;   ///< violation of a root that would be certified
 constexpr double kSelfStress = 1e-4;  ///< imbalance: what a load of 1e5 leaves of the momentum of a step
-constexpr int kHalvings = 8;          ///< of the step, at most
+constexpr int kHalvings = 14;         ///< of the step, at most
 constexpr int kBisections = 10;       ///< of the friction
 
 struct Listed {
