@@ -31,6 +31,7 @@ class CentralPath {
   /// @param z       at least as long as the problem
   /// @param closed  with what the path leaves open at its end: see SmoothedStep::close()
   void estimate(Eigen::VectorXd& z, bool closed) const;
+  [[nodiscard]] double epsilon() const { return system_.epsilon(tau_); }
   /// Of all steps since begin().
   [[nodiscard]] int factorisations() const { return factorisations_; }
 

@@ -18,6 +18,7 @@ constexpr double kNear = 1e-3;           ///< residual from which Newton's metho
 constexpr int kFullSteps = 15;           ///< tried before anything else
 constexpr int kFinishSteps = 30;         ///< from near a solution
 constexpr int kSettlingSteps = 20;       ///< for the least of what rounding leaves
+constexpr int kRelievingSweeps = 500;    ///< from no impulses
 constexpr int kRescueSteps = 60;         ///< of each rescue
 constexpr int kUndamped = 8;             ///< of those, before every other one is shortened
 constexpr double kDamping = 0.3;         ///< to this part
@@ -141,6 +142,20 @@ SolveReport CondensedNewton<Dim>::settle(StepProblem<Dim>& problem, Eigen::Vecto
   z.head(n) = start_.head(n);
   system_.evaluate(z);
   return report;
+}
+
+template <int Dim>
+SolveReport CondensedNewton<Dim>::relieve(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  for (std::size_t i = 0; i < problem.contacts().size(); ++i) {
+    const ContactLayout& at = problem.layout().contact(i);
+    z.template segment<Dimension<Dim>::friction>(at.friction).setZero();
+    z[at.normal] = 0;
+    problem.expect_load(i, 1.0);
+  }
+  bind(problem);
+  system_.evaluate(z);
+  sweeps_.run(problem, kRelievingSweeps, z);
+  return search({.damps = true, .limit = std::min(kRescueSteps, options_.max_iterations)}, z);
 }
 
 template <int Dim>

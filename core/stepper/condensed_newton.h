@@ -43,6 +43,10 @@ class CondensedNewton {
   /// StepProblem::expect_load): Newton steps go around among solutions of one rounding error, and the best of
   /// them is taken. Nothing is done where loads are usual.
   [[nodiscard]] SolveReport settle(StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  /// From a solution whose loads are heavy although nothing asks for them (a body that sticks between others,
+  /// each of which takes what the other one gives), to one with less: from no impulses anew. The loads
+  /// expected are then usual ones again.
+  [[nodiscard]] SolveReport relieve(StepProblem<Dim>& problem, Eigen::VectorXd& z);
 
  private:
   /// How one search goes about it.

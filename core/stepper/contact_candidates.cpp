@@ -15,6 +15,10 @@ namespace touchstone {
 namespace {
 
 constexpr double kMargin = 0.02;  // of the body's size: a pair that just touches is in
+/// Steps of the fastest body within which a pair may touch: impulses do not make much faster what is hit, but
+/// they may turn it.
+constexpr double kNearSteps = 3;
+constexpr double kTouching = 1e-9;  // of the body's size: a pair of bodies at rest is in
 
 std::pair<int, int> ordered(int i, int j) { return i < j ? std::pair(i, j) : std::pair(j, i); }
 
@@ -176,10 +180,12 @@ template <int Dim>
 void ContactCandidates<Dim>::select(State state, double h) {
   for (const int pair : selected_) pairs_[static_cast<std::size_t>(pair)].selected = false;
   selected_.clear();
+  left_out_.clear();
   for_each_near(state, h, [&](int index) {
     Pair& pair = pairs_[static_cast<std::size_t>(index)];
     if (!(ball_gap(pair.contact, state) <= reach(pair.contact, state, h))) return;
     pair.selected = true;
+    pair.needed = false;
     selected_.push_back(index);
   });
   sort_selected();
@@ -197,11 +203,57 @@ bool ContactCandidates<Dim>::add_overlapping(State state) {
                                         *pair.contact.side_2.surface, state[j].pose);
     if (closest.gap >= 0) return;
     pair.selected = true;
+    pair.needed = true;
     selected_.push_back(index);
   });
   if (selected_.size() == before) return false;
   sort_selected();
   return true;
+}
+
+template <int Dim>
+double ContactCandidates<Dim>::fastest(State state, double h) const {
+  double most = 0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    const Body<Dim>& body = scene_.bodies[i];
+    if (body.fixed || !std::isfinite(balls_[i].radius)) continue;
+    const double arm = balls_[i].center.norm() + balls_[i].radius;
+    const double speed = state[i].velocity.template head<Dim>().norm() +
+                         arm * state[i].velocity.template tail<Dimension<Dim>::angular>().norm();
+    most = std::max(most, speed + h * (scene_.gravity.norm() + body.force.norm() / body.mass));
+  }
+  return most;
+}
+
+template <int Dim>
+bool ContactCandidates<Dim>::leave_out_far(State state, double h) {
+  const double range = kNearSteps * h * fastest(state, h);
+  const std::size_t before = selected_.size();
+  for (const int index : selected_) {
+    Pair& pair = pairs_[static_cast<std::size_t>(index)];
+    if (pair.needed) continue;
+    const auto i = static_cast<std::size_t>(pair.contact.body_1);
+    const auto j = static_cast<std::size_t>(pair.contact.body_2);
+    const auto closest = closest_points(*pair.contact.side_1.surface, state[i].pose,
+                                        *pair.contact.side_2.surface, state[j].pose);
+    pair.selected = !(closest.gap > range + kTouching * balls_[i].radius);
+    if (!pair.selected) left_out_.push_back(index);
+  }
+  std::erase_if(selected_, [this](int index) { return !pairs_[static_cast<std::size_t>(index)].selected; });
+  return selected_.size() < before;
+}
+
+template <int Dim>
+bool ContactCandidates<Dim>::take_back() {
+  const std::size_t before = selected_.size();
+  for (const int index : left_out_) {
+    Pair& pair = pairs_[static_cast<std::size_t>(index)];
+    if (!pair.selected) selected_.push_back(index);
+    pair.selected = true;
+  }
+  left_out_.clear();
+  sort_selected();
+  return selected_.size() > before;
 }
 
 template class ContactCandidates<2>;

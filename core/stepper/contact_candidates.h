@@ -27,6 +27,7 @@ class ContactCandidates {
   struct Pair {
     ContactPair<Dim> contact{};
     bool selected = false;
+    bool needed = false;  ///< found to overlap at the end of the step being solved
   };
 
   /// @throws Unsupported for a shape without a surface, or two half-spaces of which one moves
@@ -36,6 +37,12 @@ class ContactCandidates {
   void select(std::span<const BodyState<Dim>> state, double h);
   /// Selects those that are not selected and overlap in `state`. @return whether there were any
   bool add_overlapping(std::span<const BodyState<Dim>> state);
+  /// Leaves out of the selected pairs those that are farther apart in `state` than what moves fastest would
+  /// come in a few steps of h [s]: a closer guess than select()'s, which costs closest points. Pairs found to
+  /// overlap in the step stay. @return whether there were any
+  bool leave_out_far(std::span<const BodyState<Dim>> state, double h);
+  /// Selects again what leave_out_far() has left out since select(). @return whether there was any
+  bool take_back();
 
   /// The pairs met so far. A pair keeps its index; select() and add_overlapping() may append.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
@@ -62,6 +69,8 @@ class ContactCandidates {
   /// Least distance of the bounding balls, or of ball and half-space, [m].
   [[nodiscard]] double ball_gap(const ContactPair<Dim>& contact, State state) const;
   [[nodiscard]] double reach(const ContactPair<Dim>& contact, State state, double h) const;
+  /// Largest speed of any point of a moving body in a free step, or somewhat more [m/s].
+  [[nodiscard]] double fastest(State state, double h) const;
   /// A box with the ball of body i and its share of any pair's reach.
   [[nodiscard]] AlignedBox<Dim> box(int i, State state, double h) const;
 
@@ -77,6 +86,7 @@ class ContactCandidates {
   std::vector<std::pair<int, int>> found_;
   BoxTree<Dim> tree_;
   std::vector<int> selected_;
+  std::vector<int> left_out_;  ///< by leave_out_far(), since select()
 };
 
 }  // namespace touchstone

@@ -58,8 +58,7 @@ StepReport ImplicitStepper<Dim>::step(double h) {
   candidates_.select(state_, h);
   SolveReport report;
   do {
-    collect_candidates();
-    report = solve_islands(h);
+    report = solve_selected(h);
     if (!report.solved()) {
       return {StepStatus::not_converged, report.iterations, report.residual,
               island_solver_.is_jammed() ? kJammed : to_string(report.status)};
@@ -69,19 +68,48 @@ StepReport ImplicitStepper<Dim>::step(double h) {
   return {StepStatus::solved, report.iterations, report.residual, {}};
 }
 
+/// With all contacts that are selected; where elimination fails with those alone that are near, since a
+/// contact that is far joins islands and lets no search end while its own closest points are in doubt; and at
+/// last with all of them by everything there is.
+template <int Dim>
+SolveReport ImplicitStepper<Dim>::solve_selected(double h) {
+  int iterations = 0;
+  bool may_leave_out = true;
+  const auto attempt = [&] {
+    collect_candidates();
+    SolveReport report = solve_islands(h, may_leave_out);
+    iterations += report.iterations;
+    report.iterations = iterations;
+    return report;
+  };
+  SolveReport report = attempt();
+  if (!report.solved() && !may_leave_out) report = attempt();
+  if (!report.solved() && candidates_.take_back()) report = attempt();
+  return report;
+}
+
 /// Every island on its own, into end_, solved_contacts_ and so on; stops at the first that is not solved.
+/// @param may_leave_out  whether contacts that are far may be left out where elimination fails; false once
+/// they
+///                       were, and islands are to be solved anew
 /// @return  iterations of all, and the worst residual
 template <int Dim>
-SolveReport ImplicitStepper<Dim>::solve_islands(double h) {
+SolveReport ImplicitStepper<Dim>::solve_islands(double h, bool& may_leave_out) {
   islands_.split<Dim>(scene_, active_contacts_);
   problem_.begin(state_, h);
   const typename IslandSolver<Dim>::Start start = [this](Eigen::VectorXd& z) { start_from_memory(z); };
+  // Two pointers, no more: what a std::function holds without an allocation.
+  const typename IslandSolver<Dim>::GivesWay gives_way = [this, &may_leave_out] {
+    const bool leaves_out = may_leave_out && candidates_.leave_out_far(state_, problem_.step_size());
+    may_leave_out = may_leave_out && !leaves_out;
+    return leaves_out;
+  };
   SolveReport all;
   all.status = SolveStatus::solved;
   all.residual = 0;
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     select_island(islands_[i]);
-    const SolveReport report = island_solver_.solve(problem_, start, z_);
+    const SolveReport report = island_solver_.solve(problem_, start, z_, gives_way);
     all.iterations += report.iterations;
     all.residual = std::max(all.residual, report.residual);
     if (!report.solved()) {

@@ -42,7 +42,8 @@ class ImplicitStepper final : public Method<Dim> {
 
  private:
   void collect_candidates();
-  [[nodiscard]] SolveReport solve_islands(double h);
+  [[nodiscard]] SolveReport solve_selected(double h);
+  [[nodiscard]] SolveReport solve_islands(double h, bool& may_leave_out);
   void select_island(const Islands::Island& island);
   void start_from_memory(Eigen::VectorXd& z);
   void keep_solution();

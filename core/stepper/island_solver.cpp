@@ -60,15 +60,20 @@ IslandSolver<Dim>::IslandSolver(const ImplicitOptions& options)
       semismooth_(semismooth_options(options)) {}
 
 template <int Dim>
-SolveReport IslandSolver<Dim>::solve(StepProblem<Dim>& problem, const Start& start, Eigen::VectorXd& z) {
+SolveReport IslandSolver<Dim>::solve(StepProblem<Dim>& problem, const Start& start, Eigen::VectorXd& z,
+                                     const GivesWay& gives_way) {
   problem_ = &problem;
   jammed_ = false;
   SolveReport report = options_.solver == Solver::condensed
-                           ? solve_condensed(start, z)
+                           ? solve_condensed(start, z, gives_way)
                            : solve_full_problem(options_.solver, true, start, z);
   if (report.solved() && report.residual > options_.tolerance && !problem.contacts().empty()) {
     const int iterations = report.iterations;
     report = condensed_.settle(problem, z);
+    if (report.residual > kLastAcceptable) {
+      report = condensed_.relieve(problem, z);
+      accept_rounding(report);
+    }
     report.iterations += iterations;
   }
   if (report.solved() && choose_frames()) report = solve_again(z);
@@ -78,11 +83,12 @@ SolveReport IslandSolver<Dim>::solve(StepProblem<Dim>& problem, const Start& sta
 /// Elimination from the warm start; where that fails, searches from central paths; then the full problem's
 /// solvers.
 template <int Dim>
-SolveReport IslandSolver<Dim>::solve_condensed(const Start& start, Eigen::VectorXd& z) {
+SolveReport IslandSolver<Dim>::solve_condensed(const Start& start, Eigen::VectorXd& z,
+                                               const GivesWay& gives_way) {
   start(z);
   SolveReport report = condensed_.solve(*problem_, z);
   accept_rounding(report);
-  if (report.solved() || problem_->size() > kLargestDense) return report;
+  if (report.solved() || gives_way() || problem_->size() > kLargestDense) return report;
   ++fallbacks_;
   int iterations = report.iterations;
   const bool follows_paths = !problem_->contacts().empty() && problem_->size() <= kLargestPath;

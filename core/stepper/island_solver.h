@@ -21,13 +21,18 @@ class IslandSolver {
   /// problem's reference directions for it. May be called several times for one island.
   using Start = std::function<void(Eigen::VectorXd& z)>;
 
+  using GivesWay = std::function<bool()>;
+
   explicit IslandSolver(const ImplicitOptions& options);
 
   /// @param problem  of the island, in the projection form of friction, as which it is left
   /// @param z        at least problem.size() entries; the solution if the report says so. The contacts of
   ///                 `problem` are then evaluated there.
+  /// @param gives_way  asked where elimination fails: whether the searches after it, which may take long, are
+  ///                   left out, because the caller has something better to try
   /// @return         with the iterations of all searches
-  [[nodiscard]] SolveReport solve(StepProblem<Dim>& problem, const Start& start, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport solve(StepProblem<Dim>& problem, const Start& start, Eigen::VectorXd& z,
+                                  const GivesWay& gives_way);
 
   /// Whether the last island was given up because its central paths ran off to infinity.
   [[nodiscard]] bool is_jammed() const { return jammed_; }
@@ -37,7 +42,8 @@ class IslandSolver {
  private:
   using Solver = ImplicitOptions::Solver;
 
-  [[nodiscard]] SolveReport solve_condensed(const Start& start, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport solve_condensed(const Start& start, Eigen::VectorXd& z,
+                                            const GivesWay& gives_way);
   [[nodiscard]] SolveReport follow_central_paths(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport solve_full_problem(Solver first, bool pivots, const Start& start,
                                                Eigen::VectorXd& z);

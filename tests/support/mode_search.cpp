@@ -1,6 +1,7 @@
 #include "tests/support/mode_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -95,7 +96,7 @@ Eigen::VectorXd random_start(StepProblem<Dim>& problem, Random& random) {
 
 /// Natural residual of the step's problem where a mode was solved: sigma = |w| is the projection form's own.
 template <int Dim>
-double violation(StepProblem<Dim>& problem, Eigen::VectorXd z) {
+NaturalResidual violation(StepProblem<Dim>& problem, Eigen::VectorXd z) {
   problem.set_form(FrictionForm::projection);
   for (std::size_t i = 0; i < problem.contacts().size(); ++i) z[problem.layout().contact(i).slip] = 0;
   Eigen::VectorXd f(problem.size());
@@ -105,55 +106,97 @@ double violation(StepProblem<Dim>& problem, Eigen::VectorXd z) {
     z[slip] = -f[slip];
     f[slip] = 0;
   }
-  double worst = natural_residual(problem.lower(), problem.upper(), z, f).value;
+  NaturalResidual worst = natural_residual(problem.lower(), problem.upper(), z, f);
   for (std::size_t i = 0; i < problem.contacts().size(); ++i) {
-    if (problem.is_spurious(i)) worst = std::numeric_limits<double>::infinity();
+    if (problem.is_spurious(i))
+      worst = {std::numeric_limits<double>::infinity(), problem.layout().contact(i).point_1};
   }
   problem.set_form(FrictionForm::fritz_john);
   return worst;
 }
 
+std::string in_words(const std::vector<Mode>& mode) {
+  static constexpr std::array kWords = {"open", "stick", "slip"};
+  std::string words;
+  for (const Mode m : mode)
+    words += (words.empty() ? "" : ", ") + std::string(kWords[static_cast<std::size_t>(m)]);
+  return words;
+}
+
+/// Solves the equations of one mode after the other.
+template <int Dim>
+class Search {
+ public:
+  Search(StepProblem<Dim>& problem, const ModeSearchOptions& options)
+      : problem_(problem),
+        options_(options),
+        equations_(problem),
+        newton_(newton_options()),
+        random_(options.seed) {}
+
+  ModeReport run() {
+    choose(0);
+    return report_;
+  }
+
+ private:
+  static SemismoothNewtonOptions newton_options() {
+    SemismoothNewtonOptions options;
+    // Friction rows are products with impulses of 1e-4 and less: solved as far as rounding allows.
+    options.search.tolerance = 1e-16;
+    options.search.max_iterations = 60;
+    return options;
+  }
+
+  /// The modes of this contact and of those after it, given those before it.
+  void choose(std::size_t contact) {
+    if (contact == equations_.mode().size()) return try_mode();
+    const bool held_open = contact < options_.held_open.size() && options_.held_open[contact];
+    for (const Mode m : {Mode::open, Mode::stick, Mode::slip}) {
+      if (m == Mode::slip && problem_.contacts()[contact].law.mu == 0) continue;
+      if (m != Mode::open && held_open) continue;
+      equations_.mode()[contact] = m;
+      choose(contact + 1);
+    }
+  }
+
+  void try_mode() {
+    ++report_.modes;
+    const int roots = report_.roots;
+    for (const Eigen::VectorXd& start : options_.from) solve_from(start.head(problem_.size()));
+    for (int k = 0; k < options_.starts; ++k) solve_from(random_start(problem_, random_));
+    report_.solved_modes += report_.roots > roots ? 1 : 0;
+  }
+
+  void solve_from(Eigen::VectorXd z) {
+    if (!(newton_.solve(equations_, z).residual <= kRoot)) return;
+    ++report_.roots;
+    const NaturalResidual missed = violation(problem_, z);
+    if (!(missed.value < report_.least_violation)) return;
+    report_.least_violation = missed.value;
+    report_.best_mode = in_words(equations_.mode());
+    report_.missed = problem_.row_name(missed.worst_row);
+  }
+
+  StepProblem<Dim>& problem_;
+  const ModeSearchOptions& options_;
+  ModeProblem<Dim> equations_;
+  SemismoothNewton newton_;
+  std::mt19937_64 random_;
+  ModeReport report_;
+};
+
 }  // namespace
 
 template <int Dim>
-ModeReport search_modes(StepProblem<Dim>& problem, int starts, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  SemismoothNewtonOptions options;
-  // Friction rows are products with impulses of 1e-4 and less: solved as far as rounding allows.
-  options.search.tolerance = 1e-16;
-  options.search.max_iterations = 60;
-  SemismoothNewton newton(options);
+ModeReport search_modes(StepProblem<Dim>& problem, const ModeSearchOptions& options) {
   problem.set_form(FrictionForm::fritz_john);
-  ModeProblem<Dim> equations(problem);
-  ModeReport report;
-  report.least_violation = std::numeric_limits<double>::infinity();
-  std::vector<Mode>& mode = equations.mode();
-  const auto try_mode = [&] {
-    ++report.modes;
-    int roots = 0;
-    for (int k = 0; k < starts; ++k) {
-      Eigen::VectorXd z = random_start(problem, random);
-      if (!(newton.solve(equations, z).residual <= kRoot)) continue;
-      ++roots;
-      report.least_violation = std::min(report.least_violation, violation(problem, z));
-    }
-    report.roots += roots;
-    report.solved_modes += roots > 0 ? 1 : 0;
-  };
-  const auto choose = [&](const auto& self, std::size_t contact) -> void {
-    if (contact == mode.size()) return try_mode();
-    for (const Mode m : {Mode::open, Mode::stick, Mode::slip}) {
-      if (m == Mode::slip && problem.contacts()[contact].law.mu == 0) continue;
-      mode[contact] = m;
-      self(self, contact + 1);
-    }
-  };
-  choose(choose, 0);
+  const ModeReport report = Search<Dim>(problem, options).run();
   problem.set_form(FrictionForm::projection);
   return report;
 }
 
-template ModeReport search_modes(StepProblem<2>&, int, std::uint64_t);
-template ModeReport search_modes(StepProblem<3>&, int, std::uint64_t);
+template ModeReport search_modes(StepProblem<2>&, const ModeSearchOptions&);
+template ModeReport search_modes(StepProblem<3>&, const ModeSearchOptions&);
 
 }  // namespace touchstone
