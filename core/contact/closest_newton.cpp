@@ -171,7 +171,10 @@ double closest_newton(const BodyPair<Dim>& bodies, double slack, Candidate<Dim>&
   }
   const double start = defect(bodies, candidate);
   const Candidate<Dim> reached{side_1.a(), side_2.a(), side_2.normal().normalized()};
-  const double end = reached.normal.allFinite() ? defect(bodies, reached) : start;
+  // A search that ends with multipliers of 0 has no normal, and nothing would be missed by it.
+  constexpr double kUnit = 1e-3;
+  const bool has_normal = std::abs(reached.normal.norm() - 1) < kUnit;
+  const double end = has_normal ? defect(bodies, reached) : start;
   if (end < start) candidate = reached;
   return std::min(start, end);
 }
