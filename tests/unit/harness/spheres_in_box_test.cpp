@@ -58,6 +58,19 @@ TEST(SpheresInBoxScene, IsAsDeepAsItIsWide) {
   }
 }
 
+TEST(SpheresInBoxScene, ATrayHasAsManyLayersWhateverTheNumber) {
+  for (const int n : {64, 400, 4000}) {
+    SpheresInBox box = heap(n);
+    box.layers = 4;
+    const Scene<3> scene = spheres_in_box_scene(box);
+    double top = 0;
+    for (int i = 0; i < n; ++i)
+      top = std::max(top, scene.bodies[static_cast<std::size_t>(i)].pose.position.z());
+    EXPECT_NEAR(top, 3.5 / 4 * 0.6, 0.1) << n;  // 4 layers of diameters 0.2 / sqrt 2, the top one's middle
+    EXPECT_NEAR(box.width() * box.width() / n, 0.04 / 4, 0.005) << n;  // floor for each sphere [m^2]
+  }
+}
+
 TEST(SpheresInBoxScene, FollowsFromItsSeed) {
   SpheresInBox box = heap(20);
   const Vector<3> first = spheres_in_box_scene(box).bodies[7].pose.position;
@@ -98,6 +111,24 @@ TEST(SpheresInBoxSteps, AreSolvedWithoutTheFullProblem) {
   }
   EXPECT_EQ(stepper.fallbacks(), 0);
   EXPECT_GT(stepper.contacts().size(), 200U);
+}
+
+// Rounds of sweeps, which steps of more than 60 contacts begin with, against the full problem as a whole.
+TEST(SpheresInBoxSteps, AreThoseOfTheFullProblem) {
+  SpheresInBox box = heap(30);
+  box.layers = 4;
+  const Scene<3> scene = spheres_in_box_scene(box);
+  ImplicitStepper<3> stepper(scene, {});
+  ImplicitStepper<3> full(scene, {.solver = ImplicitOptions::Solver::semismooth});
+  std::size_t most = 0;
+  for (int k = 0; k < 12; ++k) {
+    ASSERT_EQ(stepper.step(0.01).status, StepStatus::solved) << k;
+    ASSERT_EQ(full.step(0.01).status, StepStatus::solved) << k;
+    most = std::max(most, stepper.contacts().size());
+    for (std::size_t i = 0; i < 30; ++i)
+      EXPECT_LE((stepper.state()[i].velocity - full.state()[i].velocity).norm(), 1e-9) << k;
+  }
+  EXPECT_GT(most, 60U);
 }
 
 }  // namespace

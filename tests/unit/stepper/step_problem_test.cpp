@@ -113,6 +113,46 @@ double jacobian_error(const MixedComplementarityProblem& problem, const Eigen::V
   return worst;
 }
 
+/// A ball that is to pass below a fixed one; the law's t points up, nearly along the normal.
+Scene<3> ball_below_ball() {
+  Scene<3> scene;
+  scene.contact_law.mu = 0.5;
+  scene.contact_law.tangent = Vector<3>::UnitZ();
+  Body<3> ball;
+  ball.name = "ball";
+  ball.mass = 1.0;
+  ball.inertia = 0.4 * Matrix<3>::Identity();
+  ball.shape = {Sphere<3>{1.0}};
+  Body<3> fixed = ball;
+  fixed.name = "fixed";
+  fixed.fixed = true;
+  fixed.pose.position.z() = 2.1;
+  scene.bodies = {ball, fixed};
+  return scene;
+}
+
+// Friction in z is told in t and o: were they chosen anew with every normal, one that goes to and fro about
+// where the law's t stops being usable would turn it to and fro.
+TEST(StepProblemPoints, FoundAnewLeaveTheDirectionOfFrictionWhereItIs) {
+  const Scene<3> scene = ball_below_ball();
+  const auto surface = make_surface(scene.bodies[0].shape);
+  StepProblem<3> problem(scene);
+  problem.prepare(initial_state(scene), 0.05,
+                  {{0, 1, make_side(*surface), make_side(*surface), scene.contact_law}});
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(problem.size());
+  const auto direction_at = [&](double speed) {
+    z[0] = speed;
+    problem.find_points(0, z);
+    return problem.prepared(0).reference;
+  };
+  const Vector<3> law = direction_at(4.4);  // sin of the angle between t and n: 0.104, and 0.095 at 4
+  EXPECT_EQ(law, Vector<3>::UnitZ());
+  const Vector<3> other = direction_at(4.0);
+  EXPECT_NE(other, law);
+  EXPECT_EQ(direction_at(4.4), other);
+  EXPECT_EQ(direction_at(4.0), other);
+}
+
 template <typename T>
 class StepProblemTest : public testing::Test {};
 struct Planar {
