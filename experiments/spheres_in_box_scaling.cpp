@@ -2,11 +2,10 @@
 // Success criterion: time in proportion to contacts^a with a <= 1.2, by least squares on the logarithms over
 // n = 30 ... 3000 spheres in a tray, where nothing but their number grows; every step solved, Eqs. 10-11 to
 // 1e-10 by the judge. In a cube heaps get deeper as well, and where they meet changes with n: its exponent is
-// told beside. Time is the processor's, the
-// median over the second half of the steps of the fall, in which the spheres meet; contacts, those with an
-// impulse, are the mean over the same steps. Memory is the largest resident set of the process that ran that
-// n, with nothing else in it but scene, stepper and judge. The table is another one on each machine and at
-// each time.
+// told beside. Time is the processor's, the median over the second half of the steps of the fall, in which
+// the spheres meet; contacts, those with an impulse, are the mean over the same steps. Memory is the largest
+// resident set of the process that ran that n, with nothing else in it but scene, stepper and judge. The table
+// is another one on each machine and at each time.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
