@@ -4,8 +4,8 @@
 // 1e-10 by the judge. In a cube heaps get deeper as well, and where they meet changes with n: its exponent is
 // told beside. Time is the processor's, the median over the second half of the steps of the fall, in which
 // the spheres meet; contacts, those with an impulse, are the mean over the same steps. Memory is the largest
-// resident set of the process that ran that n, with nothing else in it but scene, stepper and judge. The table
-// is another one on each machine and at each time.
+// resident set of the process that ran that n, with nothing else in it but scene, stepper and judge. The
+// table is another one on each machine and at each time.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
