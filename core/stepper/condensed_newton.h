@@ -28,7 +28,8 @@ struct CondensedOptions {
 /// differentiable (smoothed_search.cpp), which finds the active set of piles near rest, where contacts
 /// between stick and slip are many; a line search on the merit of Fischer and Burmeister's function; and all
 /// of these from where Gauss-Seidel sweeps lead (contact_sweeps.h), with closest points found anew where a
-/// step loses them. What is left then is for the full problem's solvers.
+/// step loses them. What is left then is for the full problem's solvers. Problems of many contacts are first
+/// relaxed (contact_relaxation.h), which mostly solves them without a Newton step.
 template <int Dim>
 class CondensedNewton {
  public:

@@ -90,8 +90,7 @@ SolveReport ImplicitStepper<Dim>::solve_selected(double h) {
 
 /// Every island on its own, into end_, solved_contacts_ and so on; stops at the first that is not solved.
 /// @param may_leave_out  whether contacts that are far may be left out where elimination fails; false once
-/// they
-///                       were, and islands are to be solved anew
+/// they were, and islands are to be solved anew
 /// @return  iterations of all, and the worst residual
 template <int Dim>
 SolveReport ImplicitStepper<Dim>::solve_islands(double h, bool& may_leave_out) {

@@ -47,6 +47,8 @@ def scaling(directory):
     time.set_ylabel("processor time of a step [s]")
     low, high = time.get_xlim()
     time.set_xlim(low, 2.5 * high)  # room for the labels, right of their points
+    low, high = time.get_ylim()
+    time.set_ylim(low, 60 * high)  # and for the legend, above them
     time.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     memory.set_xlabel("contacts with an impulse")
     memory.set_ylabel("largest resident set [MB]")
