@@ -48,12 +48,13 @@ def scaling(directory):
     low, high = time.get_xlim()
     time.set_xlim(low, 2.5 * high)  # room for the labels, right of their points
     low, high = time.get_ylim()
-    time.set_ylim(low, 60 * high)  # and for the legend, above them
+    time.set_ylim(low / 2, 60 * high)  # and for the lowest of them and the legend
     time.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     memory.set_xlabel("contacts with an impulse")
     memory.set_ylabel("largest resident set [MB]")
     memory.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponents['tray']:.2f}",
-                   "Spheres that fall together in a box, implicit NCP, h = 0.01 s, every step solved to 1e-13. Median of "
-                   "the second\nhalf of the steps. A cube grows in depth too, and its spheres meet later the more they are.")
+                   "Spheres that fall together in a box, implicit NCP, h = 0.01 s, every step solved to 1e-13; median of the second "
+                   "half of the steps.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
+                   "where a step needs Newton's method.")
     return figure
