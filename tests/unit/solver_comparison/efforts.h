@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "experiments/solver_comparison/profile.h"
 
@@ -19,6 +20,13 @@ inline Effort solved(const std::string& problem, const std::string& method, doub
   effort.iterations = iterations;
   effort.seconds = seconds;
   return effort;
+}
+
+/// Three problems: two that both `a` and Siconos solve, one that only `a` does.
+inline std::vector<Effort> three_problems() {
+  return {solved("1", "a", 2, 1.0), solved("1", "siconos_b", 4, 6.0), solved("1", "siconos_c", 8, 3.0),
+          solved("2", "a", 6, 2.0), solved("2", "siconos_b", 3, 1.0), unsolved("2", "siconos_c"),
+          solved("3", "a", 5, 0.5), unsolved("3", "siconos_b"),       unsolved("3", "siconos_c")};
 }
 
 }  // namespace touchstone::solver_comparison::test

@@ -13,15 +13,8 @@ using harness::Table;
 using test::solved;
 using test::unsolved;
 
-/// Three problems: two that both solve, one that only `a` does.
-std::vector<Effort> efforts() {
-  return {solved("1", "a", 2, 1.0), solved("1", "siconos_b", 4, 6.0), solved("1", "siconos_c", 8, 3.0),
-          solved("2", "a", 6, 2.0), solved("2", "siconos_b", 3, 1.0), unsolved("2", "siconos_c"),
-          solved("3", "a", 5, 0.5), unsolved("3", "siconos_b"),       unsolved("3", "siconos_c")};
-}
-
 TEST(Profile, IsThatOfDolanAndMore) {
-  const Table table = performance_profile(efforts(), &Effort::iterations, 1.0);
+  const Table table = performance_profile(test::three_problems(), &Effort::iterations, 1.0);
   EXPECT_EQ(table.header, (Row{"family", "method", "ratio", "share"}));
   const std::string third = harness::number_cell(1.0 / 3), two_thirds = harness::number_cell(2.0 / 3);
   EXPECT_EQ(table.rows, (std::vector<Row>{{"step", "a", "1", two_thirds},

@@ -17,15 +17,8 @@ std::string cell(const Table& table, std::size_t row, const char* column) {
   return table.rows[row][table.column(column, "t")];
 }
 
-/// Three problems: two that both solve, one that only `a` does.
-std::vector<Effort> efforts() {
-  return {solved("1", "a", 1, 1.0), solved("1", "siconos_b", 1, 6.0), solved("1", "siconos_c", 1, 3.0),
-          solved("2", "a", 1, 2.0), solved("2", "siconos_b", 1, 1.0), unsolved("2", "siconos_c"),
-          solved("3", "a", 1, 0.5), unsolved("3", "siconos_b"),       unsolved("3", "siconos_c")};
-}
-
 TEST(Speed, ComparesWithTheFastestOfSiconosProblemByProblem) {
-  const Table table = speed_ratios(efforts());
+  const Table table = speed_ratios(test::three_problems());
   ASSERT_EQ(table.rows.size(), 4u);  // all of the family or its only scene, from all starts or the only one
   EXPECT_EQ(cell(table, 0, "scenario") + cell(table, 0, "start"), "");
   EXPECT_EQ(cell(table, 3, "scenario") + cell(table, 3, "start"), "ballswarm");
@@ -39,7 +32,7 @@ TEST(Speed, ComparesWithTheFastestOfSiconosProblemByProblem) {
 }
 
 TEST(Speed, ASingleSolverHasToSolveAllThatOursSolves) {
-  const Table none = speed_ratios(efforts());
+  const Table none = speed_ratios(test::three_problems());
   EXPECT_EQ(cell(none, 0, "single_best"), "") << "b leaves the third problem, and c two";
   std::vector<Effort> all = {
       solved("1", "a", 1, 1.0), solved("1", "siconos_b", 1, 6.0), solved("1", "siconos_c", 1, 2.0),
