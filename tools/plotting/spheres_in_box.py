@@ -1,9 +1,11 @@
 """Many contacts: time of a step and memory over the number of contacts, as measured by spheres_in_box_scaling."""
 
+import math
+
 from . import style
 from .table import read_table
 
-COLUMNS = ["box", "spheres", "contacts", "step_s", "slowest_step_s", "memory_bytes", "exponent"]
+COLUMNS = ["box", "spheres", "contacts", "step_s", "slowest_step_s", "memory_bytes", "largest_residual", "exponent"]
 FIRST_OF_FIT = 30  # spheres, as spheres_in_box_scaling has it
 BOXES = {"tray": (style.BLUE, "o", "tray, four layers deep"), "cube": (style.ORANGE, "s", "cube, as deep as wide")}
 
@@ -53,8 +55,9 @@ def scaling(directory):
     memory.set_xlabel("contacts with an impulse")
     memory.set_ylabel("largest resident set [MB]")
     memory.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
+    residual = 10.0 ** math.ceil(math.log10(max(table.numbers("largest_residual"))))
     style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponents['tray']:.2f}",
-                   "Spheres that fall together in a box, implicit NCP, h = 0.01 s, every step solved to 1e-13; median of the second "
-                   "half of the steps.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
+                   f"Spheres that fall together in a box, implicit NCP, h = 0.01 s, residual below {residual:.0e}; median of the "
+                   "second half of the steps.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
                    "where a step needs Newton's method.")
     return figure
