@@ -29,6 +29,11 @@ constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a N
 constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
+constexpr double kInteriorStart = 1e-4;  ///< tau of the interior-point method, see InteriorPath
+constexpr std::array kInteriorStages = {1e-7, 1e-9, 1e-11, 1e-13};  ///< from where it goes straight down
+constexpr std::array kInteriorEnds = {1e-14, 1e-16};                ///< and to where
+constexpr double kDecisiveLoad = 1e4;                               ///< see decide()
+constexpr int kDecidedSteps = 5;
 constexpr int kIdle = 3;  ///< steps without a gain within what rounding explains that end a search
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
 constexpr double kChordBelow = 1e-6;
@@ -48,13 +53,18 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     iterations += report.iterations;
     return report;
   };
-  if (problem.contacts().size() > kMany && problem.joints().empty()) {
+  const bool is_large = problem.contacts().size() > kMany && problem.joints().empty();
+  if (is_large) {
     const SolveReport report = attempt([&] { return approach(problem, z); });
     if (report.solved()) return report;
   }
   bind(problem);
   SolveReport report =
       attempt([&] { return search({.limit = std::min(kFullSteps, options_.max_iterations)}, z); });
+  if (!is_acceptable(report) && is_large && InteriorPath<Dim>::applies_to(problem)) {
+    z.head(n) = start_.head(n);
+    report = attempt([&] { return interior_search(z); });
+  }
   for (const Rescue& way : kRescues) {
     if (is_acceptable(report) || problem.contacts().empty()) break;
     z.head(n) = start_.head(n);
@@ -82,6 +92,49 @@ const std::array<typename CondensedNewton<Dim>::Rescue, 15> CondensedNewton<Dim>
     {.sweeps = 5, .search = Rescue::Search::full_steps},
     {.sweeps = 5000, .from_cold = true, .search = Rescue::Search::line_search, .damps = true},
 }};
+
+/// By an interior-point method (interior_path.h): straight down, and where that gets stuck, from points of
+/// its path, ever farther down.
+template <int Dim>
+SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
+  SolveReport report;
+  report.residual = std::numeric_limits<double>::infinity();
+  interior_.begin(*problem_, z, kInteriorStart);
+  int searches = 0;
+  const auto descend = [&] {
+    for (const double end : kInteriorEnds) {
+      if (!interior_.descend(end)) return false;
+      interior_.write(z);
+      report = decide(z);
+      searches += report.iterations;
+      if (is_acceptable(report)) return true;
+    }
+    return false;
+  };
+  if (!descend()) {
+    for (const double tau : kInteriorStages) {
+      if (!interior_.follow(tau) || descend()) break;
+    }
+  }
+  report.iterations = searches + interior_.factorisations();
+  return report;
+}
+
+/// From an interior point: contacts that neither surely stick nor surely slip are taken to slip, by a large
+/// weight of slip in the rows of friction (StepProblem::expect_load), and that is then taken back.
+template <int Dim>
+SolveReport CondensedNewton<Dim>::decide(Eigen::VectorXd& z) {
+  const auto weigh = [&](double load) {
+    for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->expect_load(i, load);
+  };
+  weigh(kDecisiveLoad);
+  SolveReport report = search({.limit = std::min(kFullSteps, options_.max_iterations)}, z);
+  const int iterations = report.iterations;
+  weigh(1.0);
+  report = search({.limit = std::min(kDecidedSteps, options_.max_iterations)}, z);
+  report.iterations += iterations;
+  return report;
+}
 
 template <int Dim>
 SolveReport CondensedNewton<Dim>::rescue(const Rescue& way, Eigen::VectorXd& z) {

@@ -7,6 +7,7 @@
 #include "core/stepper/condensed_system.h"
 #include "core/stepper/contact_relaxation.h"
 #include "core/stepper/contact_sweeps.h"
+#include "core/stepper/interior_path.h"
 #include "core/stepper/step_problem.h"
 
 namespace touchstone {
@@ -85,6 +86,8 @@ class CondensedNewton {
   [[nodiscard]] bool advance(bool chord, int iteration, Eigen::VectorXd& z);
   [[nodiscard]] bool restore(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport approach(StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport decide(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport rescue(const Rescue& rescue, Eigen::VectorXd& z);
   [[nodiscard]] bool is_acceptable(const SolveReport& report) const {
     return report.solved() || report.residual <= options_.acceptable;
@@ -104,6 +107,7 @@ class CondensedNewton {
   CondensedSystem<Dim> system_;
   ContactSweeps<Dim> sweeps_;
   ContactRelaxation<Dim> relaxation_;
+  InteriorPath<Dim> interior_;
   Strategy strategy_;
   Eigen::VectorXd start_, trial_, best_;
   std::vector<double> recent_merits_;  ///< of the line search

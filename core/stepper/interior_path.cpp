@@ -1,0 +1,325 @@
+#include "core/stepper/interior_path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace touchstone {
+
+namespace {
+
+// of descend()
+constexpr int kMostSystems = 60;
+constexpr double kToBoundary = 0.99;  ///< part of the way to the boundary that a step may go
+constexpr double kShortStep = 1e-3;   ///< steps that lead nowhere ...
+constexpr int kPatience = 8;          ///< ... so many of which in a row end it
+constexpr double kFloor = 1e-15;      ///< least gap and slip, over V: what rounding leaves of them
+constexpr double kCloseRows = 1e-10;  ///< residual of momentum, gap and slip at the end
+
+// of follow()
+constexpr int kMostPathSystems = 600;
+constexpr int kCentring = 60;         ///< systems to the path, at first
+constexpr int kCorrections = 6;       ///< Newton steps back to the path
+constexpr double kFirstLength = 0.5;  ///< of a step: changes relative to what changes, and of log(tau)
+constexpr double kShortestLength = 1e-6;
+constexpr double kLongestLength = 8;
+constexpr double kPredictor = 0.7;  ///< part of the way to the boundary, along the tangent
+constexpr double kCorrector = 0.9;  ///< and of a correction
+constexpr double kHalf = 0.5;       ///< least part of a correction
+constexpr double kShorter = 0.4;    ///< factors of the length, after a step that failed
+constexpr double kSlower = 0.7;     ///< and after one with kManyCorrections
+constexpr double kLonger = 2.0;     ///< and after one with kFewCorrections
+constexpr int kFewCorrections = 2;
+constexpr int kManyCorrections = 4;
+constexpr double kClose = 0.05;       ///< largest relative change of the last correction
+constexpr double kContraction = 0.5;  ///< of corrections
+constexpr double kFarthest = 2.0;     ///< of log(tau), in a correction
+
+constexpr int kRefinements = 2;  ///< of each direction: matrices range over 14 orders of magnitude
+
+}  // namespace
+
+template <int Dim>
+bool InteriorPath<Dim>::applies_to(const StepProblem<Dim>& problem) {
+  const auto is_simple = [](const Side<Dim>& side) { return side.kind != SideKind::intersection; };
+  return problem.joints().empty() && !problem.contacts().empty() &&
+         std::all_of(problem.contacts().begin(), problem.contacts().end(), [&](const ContactPair<Dim>& pair) {
+           return is_simple(pair.side_1) && is_simple(pair.side_2);
+         });
+}
+
+template <int Dim>
+void InteriorPath<Dim>::begin(StepProblem<Dim>& problem, const Eigen::VectorXd& z, double tau) {
+  problem_ = &problem;
+  count_ = problem.contacts().size();
+  if (contacts_.size() < count_) contacts_.resize(count_);
+  path_.z = z.head(problem.size());
+  path_.contacts.resize(count_);
+  path_.log_tau = std::log(tau);
+  problem.set_form(FrictionForm::no_slip);
+  for (std::size_t i = 0; i < count_; ++i) {
+    contacts_[i].bind(problem, i);
+    path_.contacts[i] = contacts_[i].start(path_.z, tau);
+  }
+  problem.set_form(FrictionForm::projection);
+  point_ = path_;
+  write_impulses();
+  path_.z = point_.z;
+  centred_ = false;
+  has_tangent_ = false;
+  length_ = kFirstLength;
+  factorisations_ = 0;
+}
+
+template <int Dim>
+bool InteriorPath<Dim>::descend(double tau) {
+  point_ = path_;
+  int short_steps = 0;
+  for (int k = 0; k < kMostSystems && short_steps < kPatience; ++k) {
+    if (!evaluate()) return false;
+    const double mean = mean_product();
+    if (!std::isfinite(mean)) return false;
+    const double residual = std::max(rows_.cwiseAbs().maxCoeff(), slack());
+    if (mean <= tau && residual <= kCloseRows) return true;
+    if (!linearise()) return false;
+    find_direction({}, step_);
+    const double to_boundary = std::min(1.0, longest(step_));
+    const double centring = std::pow(1 - to_boundary, 3);
+    find_direction({.tau = centring * mean, .floor = kFloor, .second_order = true}, step_);
+    const double part = std::min(1.0, kToBoundary * longest(step_));
+    move(part, step_, true);
+    short_steps = part > kShortStep ? 0 : short_steps + 1;
+  }
+  return false;
+}
+
+template <int Dim>
+bool InteriorPath<Dim>::follow(double tau) {
+  point_ = path_;
+  if (!centred_ && !centre()) return false;
+  centred_ = true;
+  while (point_.log_tau > std::log(tau)) {
+    if (!advance()) return false;
+    path_ = point_;
+  }
+  return true;
+}
+
+template <int Dim>
+void InteriorPath<Dim>::write_impulses() {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const ContactLayout& at = problem_->layout().contact(i);
+    point_.z.template segment<Dimension<Dim>::friction>(at.friction) = point_.contacts[i].y;
+    point_.z[at.normal] = point_.contacts[i].p;
+  }
+}
+
+/// Rows and derivatives at the point.
+template <int Dim>
+bool InteriorPath<Dim>::evaluate() {
+  rows_.resize(kVelocity * problem_->moving_bodies());
+  for (int b = 0; b < problem_->moving_bodies(); ++b)
+    rows_.template segment<kVelocity>(kVelocity * b) = problem_->momentum_row(b, point_.z);
+  problem_->set_form(FrictionForm::no_slip);
+  bool regular = true;
+  for (std::size_t i = 0; i < count_ && regular; ++i) {
+    Contact& contact = contacts_[i];
+    regular = contact.evaluate(point_.contacts[i], point_.z);
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const int place = contact.place()[k];
+      if (regular && place >= 0) rows_.template segment<kVelocity>(kVelocity * place) += contact.wrench(k);
+    }
+  }
+  problem_->set_form(FrictionForm::projection);
+  return regular;
+}
+
+/// Factors of the system in the velocities, where evaluate() was last.
+template <int Dim>
+bool InteriorPath<Dim>::linearise() {
+  ++factorisations_;
+  system_.start(rows_.size());
+  std::array<Eigen::Index, kVelocity> unknown;
+  std::array<Eigen::Index, kVelocity> place;
+  std::iota(unknown.begin(), unknown.end(), Eigen::Index{0});
+  for (int b = 0; b < problem_->moving_bodies(); ++b) {
+    std::iota(place.begin(), place.end(), Eigen::Index{kVelocity} * b);
+    body_matrix_ = problem_->momentum_matrix(b);
+    system_.add(unknown, place, body_matrix_);
+  }
+  for (std::size_t i = 0; i < count_; ++i)
+    system_.add(contacts_[i].columns(), contacts_[i].places(), contacts_[i].matrix());
+  return system_.factor();
+}
+
+/// The direction at the point, refined in what its own impulses leave of the momentum rows.
+template <int Dim>
+void InteriorPath<Dim>::find_direction(const Goal& goal, Step& step) {
+  const auto add_at = [this](const Contact& contact, const Eigen::VectorXd& own) {
+    for (std::size_t r = 0; r < contact.places().size(); ++r)
+      right_side_[contact.places()[r]] -= own[static_cast<Eigen::Index>(r)];
+  };
+  const auto start_rows = [&] {
+    if (goal.tangent) {
+      right_side_.setZero(rows_.size());
+    } else {
+      right_side_ = -rows_;
+    }
+  };
+  start_rows();
+  for (std::size_t i = 0; i < count_; ++i)
+    add_at(contacts_[i], contacts_[i].begin_direction(point_.contacts[i], goal));
+  step.velocity.setZero(rows_.size());
+  for (int k = 0; k <= kRefinements; ++k) {
+    system_.solve(right_side_);
+    step.velocity += right_side_;
+    for (std::size_t i = 0; i < count_; ++i) contacts_[i].respond(right_side_);
+    if (k == kRefinements) break;
+    start_rows();
+    for (int b = 0; b < problem_->moving_bodies(); ++b) {
+      const Eigen::Index at = Eigen::Index{kVelocity} * b;
+      right_side_.template segment<kVelocity>(at) -=
+          problem_->momentum_matrix(b) * step.velocity.template segment<kVelocity>(at);
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+      add_at(contacts_[i], contacts_[i].momentum_change(step.velocity));
+  }
+  step.contacts.resize(count_);
+  for (std::size_t i = 0; i < count_; ++i) step.contacts[i] = contacts_[i].end_direction(step.velocity);
+  step.log_tau = goal.tangent ? 1.0 : 0.0;
+}
+
+template <int Dim>
+double InteriorPath<Dim>::mean_product() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < count_; ++i) sum += contacts_[i].complementarity(point_.contacts[i]);
+  return sum / static_cast<double>(count_);
+}
+
+template <int Dim>
+double InteriorPath<Dim>::slack() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < count_; ++i) largest = std::max(largest, contacts_[i].slack());
+  return largest;
+}
+
+template <int Dim>
+double InteriorPath<Dim>::longest(const Step& step) const {
+  double longest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < count_; ++i)
+    longest = std::min(longest, contacts_[i].longest_step(point_.contacts[i], step.contacts[i]));
+  return longest;
+}
+
+/// @param residual  whether the step was one that takes away what rows are off
+template <int Dim>
+void InteriorPath<Dim>::move(double factor, const Step& step, bool residual) {
+  point_.z.head(rows_.size()) += factor * step.velocity;
+  point_.log_tau += factor * step.log_tau;
+  for (std::size_t i = 0; i < count_; ++i) {
+    point_.contacts[i].add(factor, step.contacts[i]);
+    contacts_[i].move_points(step.velocity, factor, residual, point_.z);
+  }
+  write_impulses();
+}
+
+/// Newton's method to the path at the tau of the start.
+template <int Dim>
+bool InteriorPath<Dim>::centre() {
+  for (int k = 0; k < kCentring; ++k) {
+    if (!evaluate() || !linearise()) return false;
+    find_direction({.tau = std::exp(point_.log_tau)}, step_);
+    const double part = std::min(1.0, kCorrector * longest(step_));
+    const bool close = part == 1.0 && largest(step_) < kClose;
+    move(part, step_, true);
+    if (close) return true;
+  }
+  return false;
+}
+
+/// One step along the path, as long as it can be. False if there is none.
+template <int Dim>
+bool InteriorPath<Dim>::advance() {
+  if (!find_tangent()) return false;
+  kept_ = point_;
+  while (length_ >= kShortestLength && factorisations_ < kMostPathSystems) {
+    const double length = std::min(length_, kPredictor * longest(tangent_));
+    move(length, tangent_, false);
+    if (correct()) {
+      if (corrections_ <= kFewCorrections)
+        length_ = std::min(kLonger * std::max(length, length_), kLongestLength);
+      if (corrections_ >= kManyCorrections) length_ = kSlower * length;
+      return true;
+    }
+    length_ = kShorter * length;
+    point_ = kept_;
+    if (!evaluate()) return false;  // closest points move from there
+  }
+  return false;
+}
+
+/// The direction in which the path goes on: the one that keeps on in the last direction, downwards at first.
+template <int Dim>
+bool InteriorPath<Dim>::find_tangent() {
+  if (!evaluate() || !linearise()) return false;
+  find_direction({.tau = std::exp(point_.log_tau), .tangent = true}, step_);
+  const double size = std::sqrt(scalar_product(step_, step_));
+  if (!std::isfinite(size)) return false;
+  const double forward = has_tangent_ ? scalar_product(step_, tangent_) : -1.0;
+  last_tangent_ = step_;
+  add((forward < 0 ? -1 : 1) / size - 1, step_, last_tangent_);
+  std::swap(tangent_, last_tangent_);
+  has_tangent_ = true;
+  return true;
+}
+
+/// Newton's method back to the path, across the tangent. False if it does not contract.
+template <int Dim>
+bool InteriorPath<Dim>::correct() {
+  double before = std::numeric_limits<double>::infinity();
+  for (corrections_ = 1; corrections_ <= kCorrections; ++corrections_) {
+    if (!evaluate() || !linearise()) return false;
+    const double tau = std::exp(point_.log_tau);
+    find_direction({.tau = tau}, step_);
+    find_direction({.tau = tau, .tangent = true}, along_);
+    add(-scalar_product(tangent_, step_) / scalar_product(tangent_, along_), along_, step_);
+    const double size = largest(step_);
+    const double part = std::min(1.0, kCorrector * longest(step_));
+    if (!(size <= kContraction * before && part >= kHalf && std::abs(step_.log_tau) <= kFarthest))
+      return false;
+    before = size;
+    move(part, step_, true);
+    if (part == 1.0 && size < kClose) return true;
+  }
+  return false;
+}
+
+/// Of changes relative to what changes, a contact's on average, and of those of log(tau).
+template <int Dim>
+double InteriorPath<Dim>::scalar_product(const Step& a, const Step& b) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < count_; ++i)
+    sum += contacts_[i].scalar_product(point_.contacts[i], a.contacts[i], b.contacts[i]);
+  return sum / static_cast<double>(count_) + a.log_tau * b.log_tau;
+}
+
+template <int Dim>
+double InteriorPath<Dim>::largest(const Step& step) const {
+  double largest = std::abs(step.log_tau);
+  for (std::size_t i = 0; i < count_; ++i)
+    largest = std::max(largest, contacts_[i].largest(point_.contacts[i], step.contacts[i]));
+  return largest;
+}
+
+template <int Dim>
+void InteriorPath<Dim>::add(double factor, const Step& other, Step& step) {
+  step.velocity += factor * other.velocity;
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) step.contacts[i].add(factor, other.contacts[i]);
+  step.log_tau += factor * other.log_tau;
+}
+
+template class InteriorPath<2>;
+template class InteriorPath<3>;
+
+}  // namespace touchstone
