@@ -31,8 +31,9 @@ constexpr double kTarget = 0.05;         ///< of the tolerance: where a search t
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
 constexpr double kInteriorStart = 1e-4;  ///< tau of the interior-point method, see InteriorPath
 constexpr std::array kInteriorStages = {1e-7, 1e-9, 1e-11, 1e-13};  ///< from where it goes straight down
-constexpr std::array kInteriorEnds = {1e-14, 1e-16};                ///< and to where
-constexpr double kDecisiveLoad = 1e4;                               ///< see decide()
+constexpr std::array kInteriorEnds = {1e-14, 1e-17, 1e-18, 1e-19};  ///< and to where
+constexpr double kDecisiveLoad = 1e3;                               ///< see decide()
+constexpr int kDecidingSteps = 8;
 constexpr int kDecidedSteps = 5;
 constexpr int kIdle = 3;  ///< steps without a gain within what rounding explains that end a search
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
@@ -128,10 +129,10 @@ SolveReport CondensedNewton<Dim>::decide(Eigen::VectorXd& z) {
     for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->expect_load(i, load);
   };
   weigh(kDecisiveLoad);
-  SolveReport report = search({.limit = std::min(kFullSteps, options_.max_iterations)}, z);
+  SolveReport report = search({.damps = true, .limit = std::min(kDecidingSteps, options_.max_iterations)}, z);
   const int iterations = report.iterations;
   weigh(1.0);
-  report = search({.limit = std::min(kDecidedSteps, options_.max_iterations)}, z);
+  report = search({.damps = true, .limit = std::min(kDecidedSteps, options_.max_iterations)}, z);
   report.iterations += iterations;
   return report;
 }

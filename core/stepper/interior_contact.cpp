@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kRegular = 1e-8;  ///< smallest pivot, relative to its column, to eliminate points with
 constexpr double kLost = 1e-2;     ///< residual of closest points above which they are found anew
+constexpr double kGapFloor = 10;   ///< of a gap, over that of a slip: rounding of a position over h V
 constexpr int kHalvings = 60;      ///< of an interval, to rounding
 
 }  // namespace
@@ -138,8 +139,21 @@ double InteriorContact<Dim>::slack() const {
 }
 
 template <int Dim>
-double InteriorContact<Dim>::complementarity(const Unknowns& at) const {
-  return mu_ == 0 ? at.p * at.gap : (at.p * at.gap + at.load(mu_).dot(at.slip)) / 2;
+auto InteriorContact<Dim>::floors(const Unknowns& at, double floor) const -> Floors {
+  const Element load = at.load(mu_);
+  return {floor * at.p,
+          mu_ == 0 ? 0.0 : floor * std::max(Cone::determinant(load) / load[0], load[0] * at.slip[0])};
+}
+
+template <int Dim>
+double InteriorContact<Dim>::complementarity(const Unknowns& at, double floor) const {
+  constexpr double kNear = 2.0;
+  const Floors least = floors(at, floor);
+  const double normal = at.p * at.gap;
+  const double friction = mu_ == 0 ? 0.0 : at.load(mu_).dot(at.slip);
+  return ((normal > kNear * least.normal ? normal : 0.0) +
+          (friction > kNear * least.friction ? friction : 0.0)) /
+         2;
 }
 
 template <int Dim>
@@ -154,16 +168,16 @@ Eigen::VectorXd InteriorContact<Dim>::begin_direction(const Unknowns& at, const 
   moves_slack_ = !goal.tangent;
   const Rows slack = moves_slack_ ? slack_ : Rows::Zero();
   double right_side = goal.tau;
-  if (!goal.tangent) right_side = std::max(goal.tau, goal.floor * at.p) - at.p * at.gap;
+  const Floors least = floors(at, goal.floor);
+  if (!goal.tangent) right_side = std::max(goal.tau, least.normal) - at.p * at.gap;
   if (goal.second_order) right_side -= direction_.p * direction_.gap;
   offset_[kFriction] = right_side / at.gap - answer_(kFriction, kFriction) * slack[kFriction];
   offset_.template head<kFriction>().setZero();
   if (mu_ > 0) {
-    const Element load = at.load(mu_);
     Element right = Element::Zero();
     right[0] = goal.tau;
     if (!goal.tangent) {
-      right[0] = std::max(goal.tau, goal.floor * Cone::determinant(load) / load[0]);
+      right[0] = std::max(goal.tau, least.friction);
       right -= Cone::product(scaled_, scaled_);
     }
     if (goal.second_order)

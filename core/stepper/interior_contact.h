@@ -44,12 +44,17 @@ class InteriorContact {
   static constexpr int kVelocity = Dimension<Dim>::velocity;
   static constexpr int kFriction = Dimension<Dim>::friction;
 
+  /// Least products that are of use: a contact that sticks or closes has a slip or gap of `floor` V at least,
+  /// and one that slips is off its greatest friction by this part of it. What is less is not told by
+  /// rounding.
+  struct Floors {
+    double normal = 0.0;
+    double friction = 0.0;
+  };
   /// What a direction leads to.
   struct Goal {
     double tau = 0.0;
-    /// Least gap and slip, over V, of a contact that closes or sticks: a smaller tau for those would make
-    /// the system as singular as the impulses are not unique.
-    double floor = 0.0;
+    double floor = 0.0;         ///< see Floors
     bool second_order = false;  ///< with the products of the last direction's changes (Mehrotra)
     bool tangent = false;       ///< derivative by log(tau) along the path instead
   };
@@ -65,8 +70,8 @@ class InteriorContact {
   [[nodiscard]] bool evaluate(const Unknowns& at, Eigen::VectorXd& z);
   /// Largest amount by which gap and w differ from those of the poses.
   [[nodiscard]] double slack() const;
-  /// Mean of the products that are to be tau.
-  [[nodiscard]] double complementarity(const Unknowns& at) const;
+  /// Mean of the products that are to be tau, without those that are as small as they need be.
+  [[nodiscard]] double complementarity(const Unknowns& at, double floor) const;
 
   [[nodiscard]] const std::array<int, 2>& place() const { return block_.place; }
   /// What the contact adds to the momentum rows of body k.
@@ -101,6 +106,7 @@ class InteriorContact {
   using Cone = FrictionCone<kRows>;
   using Rows = Eigen::Matrix<double, kRows, 1>;  ///< of (y, p) or (w, gap)
 
+  [[nodiscard]] Floors floors(const Unknowns& at, double floor) const;
   void eliminate_points();
   [[nodiscard]] bool factor_points();
   [[nodiscard]] double points_residual() const;

@@ -12,9 +12,10 @@ namespace {
 // of descend()
 constexpr int kMostSystems = 60;
 constexpr double kToBoundary = 0.99;  ///< part of the way to the boundary that a step may go
-constexpr double kShortStep = 1e-3;   ///< steps that lead nowhere ...
-constexpr int kPatience = 8;          ///< ... so many of which in a row end it
-constexpr double kFloor = 1e-15;      ///< least gap and slip, over V: what rounding leaves of them
+constexpr double kGain = 0.7;         ///< factor of mean product or residual that counts as a gain
+constexpr int kPatience = 10;         ///< steps without one that end it
+constexpr double kNoise = 1e-13;      ///< residual below which a gain is chance
+constexpr double kFloor = 1e-14;      ///< least gap and slip, over V: what rounding leaves of them
 constexpr double kCloseRows = 1e-10;  ///< residual of momentum, gap and slip at the end
 
 // of follow()
@@ -70,26 +71,29 @@ void InteriorPath<Dim>::begin(StepProblem<Dim>& problem, const Eigen::VectorXd& 
   has_tangent_ = false;
   length_ = kFirstLength;
   factorisations_ = 0;
+  path_systems_ = 0;
 }
 
 template <int Dim>
 bool InteriorPath<Dim>::descend(double tau) {
-  point_ = path_;
-  int short_steps = 0;
-  for (int k = 0; k < kMostSystems && short_steps < kPatience; ++k) {
+  double best_mean = std::numeric_limits<double>::infinity();
+  double best_residual = best_mean;
+  int idle = 0;
+  for (int k = 0; k < kMostSystems && idle < kPatience; ++k) {
     if (!evaluate()) return false;
     const double mean = mean_product();
-    if (!std::isfinite(mean)) return false;
     const double residual = std::max(rows_.cwiseAbs().maxCoeff(), slack());
+    if (!std::isfinite(mean + residual)) return false;
     if (mean <= tau && residual <= kCloseRows) return true;
+    idle = mean <= kGain * best_mean || residual <= kGain * best_residual ? 0 : idle + 1;
+    best_mean = std::min(best_mean, mean);
+    best_residual = std::min(best_residual, std::max(residual, kNoise));
     if (!linearise()) return false;
     find_direction({}, step_);
     const double to_boundary = std::min(1.0, longest(step_));
     const double centring = std::pow(1 - to_boundary, 3);
     find_direction({.tau = centring * mean, .floor = kFloor, .second_order = true}, step_);
-    const double part = std::min(1.0, kToBoundary * longest(step_));
-    move(part, step_, true);
-    short_steps = part > kShortStep ? 0 : short_steps + 1;
+    move(std::min(1.0, kToBoundary * longest(step_)), step_, true);
   }
   return false;
 }
@@ -97,13 +101,16 @@ bool InteriorPath<Dim>::descend(double tau) {
 template <int Dim>
 bool InteriorPath<Dim>::follow(double tau) {
   point_ = path_;
-  if (!centred_ && !centre()) return false;
-  centred_ = true;
-  while (point_.log_tau > std::log(tau)) {
-    if (!advance()) return false;
-    path_ = point_;
+  const int before = factorisations_;
+  bool leads_on = centred_ || centre();
+  if (leads_on && !centred_) path_ = point_;
+  centred_ = leads_on;
+  while (leads_on && point_.log_tau > std::log(tau)) {
+    leads_on = advance();
+    if (leads_on) path_ = point_;
   }
-  return true;
+  path_systems_ += factorisations_ - before;
+  return leads_on;
 }
 
 template <int Dim>
@@ -193,7 +200,7 @@ void InteriorPath<Dim>::find_direction(const Goal& goal, Step& step) {
 template <int Dim>
 double InteriorPath<Dim>::mean_product() const {
   double sum = 0;
-  for (std::size_t i = 0; i < count_; ++i) sum += contacts_[i].complementarity(point_.contacts[i]);
+  for (std::size_t i = 0; i < count_; ++i) sum += contacts_[i].complementarity(point_.contacts[i], kFloor);
   return sum / static_cast<double>(count_);
 }
 
@@ -243,7 +250,7 @@ template <int Dim>
 bool InteriorPath<Dim>::advance() {
   if (!find_tangent()) return false;
   kept_ = point_;
-  while (length_ >= kShortestLength && factorisations_ < kMostPathSystems) {
+  while (length_ >= kShortestLength && path_systems_ < kMostPathSystems) {
     const double length = std::min(length_, kPredictor * longest(tangent_));
     move(length, tangent_, false);
     if (correct()) {

@@ -30,10 +30,11 @@ class InteriorPath {
   /// Starts at `tau` near z. @param problem  must outlive the use; in the projection form of friction, as
   /// which it is left after each call
   void begin(StepProblem<Dim>& problem, const Eigen::VectorXd& z, double tau);
-  /// Goes on from where follow() ended, or the start, until the mean product is at most `tau`. False if it is
-  /// stuck. follow() does not go on from there.
+  /// Goes on from where the last of both ended, until the mean product is at most `tau`. False if it is
+  /// stuck.
   [[nodiscard]] bool descend(double tau);
-  /// Follows the path from where it was left until it is at `tau` or below. False if no step leads on.
+  /// Follows the path from where it was left, or the start, until it is at `tau` or below. False if no step
+  /// leads on.
   [[nodiscard]] bool follow(double tau);
   /// Where the last of both ended, into z.
   void write(Eigen::VectorXd& z) const { z.head(problem_->size()) = point_.z; }
@@ -88,6 +89,7 @@ class InteriorPath {
   double length_ = 0.0;  ///< of the next step along the path
   int corrections_ = 0;  ///< of the last one
   int factorisations_ = 0;
+  int path_systems_ = 0;  ///< of them, in follow()
 };
 
 }  // namespace touchstone
