@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMany = 60;        ///< contacts above which rounds of sweeps come first
 constexpr double kRelaxed = 0.5;         ///< of the tolerance, that they are asked for
-constexpr double kNear = 1e-3;           ///< residual from which Newton's method goes on
+constexpr double kNear = 1e-3;           ///< residual after them from which Newton's method goes on
 constexpr int kFullSteps = 15;           ///< tried before anything else
 constexpr int kFinishSteps = 30;         ///< from near a solution
 constexpr int kSettlingSteps = 20;       ///< for the least of what rounding leaves
@@ -30,10 +30,15 @@ constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
 constexpr double kInteriorStart = 1e-4;  ///< tau of the interior-point method, see InteriorPath
-constexpr std::array kInteriorStages = {1e-7, 1e-9, 1e-11, 1e-13};  ///< from where it goes straight down
+constexpr std::array kInteriorStages = {1e-7,  1e-9,  1e-11, 1e-12,
+                                        1e-13, 1e-15, 1e-17};       ///< from where it goes straight down
 constexpr std::array kInteriorEnds = {1e-14, 1e-17, 1e-18, 1e-19};  ///< and to where
-constexpr double kDecisiveLoad = 1e3;                               ///< see decide()
-constexpr int kDecidingSteps = 8;
+constexpr std::array<std::array<double, 2>, 2> kDecisions = {{{1e2, 1e-4}, {1.0, 1e-3}}};  ///< see decide()
+constexpr int kDecidingSteps = 15;
+constexpr double kMostHold = 1.0;
+constexpr double kLessHold = 1.0 / 3;  ///< after a step that is taken ...
+constexpr double kMoreHold = 8;        ///< ... and after one that is not,
+constexpr double kMostRise = 10;       ///< since it is this much farther off than the nearest so far
 constexpr int kDecidedSteps = 5;
 constexpr int kIdle = 3;  ///< steps without a gain within what rounding explains that end a search
 /// Below this residual the last factors are used once more: their step then gains as much as a new one would.
@@ -56,16 +61,23 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
   };
   const bool is_large = problem.contacts().size() > kMany && problem.joints().empty();
   if (is_large) {
-    const SolveReport report = attempt([&] { return approach(problem, z); });
-    if (report.solved()) return report;
+    SolveReport report = attempt([&] { return approach(problem, z); });
+    if (!report.solved() && InteriorPath<Dim>::applies_to(problem)) {
+      bind(problem);
+      report = attempt([&] { return interior_search(z); });
+    }
+    report.iterations = iterations;
+    if (is_acceptable(report)) return report;
+    if (relaxation_.residual() <= kNear) {
+      z.head(n) = relaxed_.head(n);
+      start_.head(n) = relaxed_.head(n);
+    } else {
+      z.head(n) = start_.head(n);
+    }
   }
   bind(problem);
   SolveReport report =
       attempt([&] { return search({.limit = std::min(kFullSteps, options_.max_iterations)}, z); });
-  if (!is_acceptable(report) && is_large && InteriorPath<Dim>::applies_to(problem)) {
-    z.head(n) = start_.head(n);
-    report = attempt([&] { return interior_search(z); });
-  }
   for (const Rescue& way : kRescues) {
     if (is_acceptable(report) || problem.contacts().empty()) break;
     z.head(n) = start_.head(n);
@@ -105,10 +117,12 @@ SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
   const auto descend = [&] {
     for (const double end : kInteriorEnds) {
       if (!interior_.descend(end)) return false;
-      interior_.write(z);
-      report = decide(z);
-      searches += report.iterations;
-      if (is_acceptable(report)) return true;
+      for (const auto& [load, hold] : kDecisions) {
+        interior_.write(z);
+        report = decide(load, hold, z);
+        searches += report.iterations;
+        if (is_acceptable(report)) return true;
+      }
     }
     return false;
   };
@@ -121,19 +135,42 @@ SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
   return report;
 }
 
-/// From an interior point: contacts that neither surely stick nor surely slip are taken to slip, by a large
-/// weight of slip in the rows of friction (StepProblem::expect_load), and that is then taken back.
+/// From an interior point, by Newton's method with the impulses held, in the manner of Levenberg and
+/// Marquardt: less where the residual falls, more where it rises. Where slip is as small as rounding leaves
+/// it a full step would turn friction about, and with it all that is already right.
+/// @param load  by which slip is weighed first (StepProblem::expect_load): contacts that neither surely stick
+/// nor surely slip are then taken to slip
 template <int Dim>
-SolveReport CondensedNewton<Dim>::decide(Eigen::VectorXd& z) {
-  const auto weigh = [&](double load) {
-    for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->expect_load(i, load);
+SolveReport CondensedNewton<Dim>::decide(double load, double hold, Eigen::VectorXd& z) {
+  const Eigen::Index n = problem_->size();
+  const auto weigh = [&](double weight) {
+    for (std::size_t i = 0; i < problem_->contacts().size(); ++i) problem_->expect_load(i, weight);
   };
-  weigh(kDecisiveLoad);
-  SolveReport report = search({.damps = true, .limit = std::min(kDecidingSteps, options_.max_iterations)}, z);
-  const int iterations = report.iterations;
+  SolveReport report;
+  weigh(load);
+  set_strategy({.damps = true, .hold = hold});
+  system_.evaluate(z);
+  double least = system_.residual();
+  while (least > options_.tolerance && report.iterations < kDecidingSteps && hold < kMostHold) {
+    set_strategy({.damps = true, .hold = hold});
+    if (!system_.newton_step(z)) break;
+    ++report.iterations;
+    trial_.head(n) = z.head(n);
+    z.head(n) += system_.step().head(n);
+    system_.evaluate(z);
+    if (system_.residual() <= kMostRise * least) {
+      least = std::min(least, system_.residual());
+      hold *= kLessHold;
+    } else {
+      z.head(n) = trial_.head(n);
+      system_.evaluate(z);
+      hold *= kMoreHold;
+    }
+  }
   weigh(1.0);
+  const int steps = report.iterations;
   report = search({.damps = true, .limit = std::min(kDecidedSteps, options_.max_iterations)}, z);
-  report.iterations += iterations;
+  report.iterations += steps;
   return report;
 }
 
@@ -225,10 +262,11 @@ void CondensedNewton<Dim>::set_strategy(const Strategy& strategy) {
   strategy_ = strategy;
   system_.set_form({.fischer_burmeister = strategy.line_search,
                     .chooses_faces = strategy.follows,
-                    .damps = strategy.damps});
+                    .damps = strategy.damps,
+                    .hold = strategy.hold});
 }
 
-/// Rounds of sweeps from z; what is tried after them starts where they end, if that is near a solution.
+/// Rounds of sweeps from z, which is left where they end.
 template <int Dim>
 SolveReport CondensedNewton<Dim>::approach(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
   SolveReport report;
@@ -236,11 +274,8 @@ SolveReport CondensedNewton<Dim>::approach(StepProblem<Dim>& problem, Eigen::Vec
   report.residual = relaxation_.residual();
   report.status = report.residual <= options_.tolerance ? SolveStatus::solved : SolveStatus::stalled;
   const Eigen::Index n = problem.size();
-  if (report.residual <= kNear) {
-    start_.head(n) = z.head(n);
-  } else {
-    z.head(n) = start_.head(n);
-  }
+  make_room(relaxed_, n);
+  relaxed_.head(n) = z.head(n);
   return report;
 }
 

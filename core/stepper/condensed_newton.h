@@ -59,6 +59,7 @@ class CondensedNewton {
     bool restores = false;  ///< finds closest points anew where a step loses them
     bool follows = false;   ///< brings closest points after a trial step that loses them: follow_points()
     bool damps = false;     ///< holds on to the contacts' impulses
+    double hold = 0.0;      ///< see CondensedForm
     int limit = 0;          ///< of Newton steps
   };
 
@@ -87,7 +88,7 @@ class CondensedNewton {
   [[nodiscard]] bool restore(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport approach(StepProblem<Dim>& problem, Eigen::VectorXd& z);
   [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
-  [[nodiscard]] SolveReport decide(Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport decide(double load, double hold, Eigen::VectorXd& z);
   [[nodiscard]] SolveReport rescue(const Rescue& rescue, Eigen::VectorXd& z);
   [[nodiscard]] bool is_acceptable(const SolveReport& report) const {
     return report.solved() || report.residual <= options_.acceptable;
@@ -110,6 +111,7 @@ class CondensedNewton {
   InteriorPath<Dim> interior_;
   Strategy strategy_;
   Eigen::VectorXd start_, trial_, best_;
+  Eigen::VectorXd relaxed_;            ///< where rounds of sweeps ended
   std::vector<double> recent_merits_;  ///< of the line search
 };
 

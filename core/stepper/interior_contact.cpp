@@ -167,15 +167,15 @@ template <int Dim>
 Eigen::VectorXd InteriorContact<Dim>::begin_direction(const Unknowns& at, const Goal& goal) {
   moves_slack_ = !goal.tangent;
   const Rows slack = moves_slack_ ? slack_ : Rows::Zero();
-  double right_side = goal.tau;
   const Floors least = floors(at, goal.floor);
+  double right_side = goal.tau > least.normal ? goal.tau : 0.0;
   if (!goal.tangent) right_side = std::max(goal.tau, least.normal) - at.p * at.gap;
   if (goal.second_order) right_side -= direction_.p * direction_.gap;
   offset_[kFriction] = right_side / at.gap - answer_(kFriction, kFriction) * slack[kFriction];
   offset_.template head<kFriction>().setZero();
   if (mu_ > 0) {
     Element right = Element::Zero();
-    right[0] = goal.tau;
+    right[0] = goal.tau > least.friction ? goal.tau : 0.0;
     if (!goal.tangent) {
       right[0] = std::max(goal.tau, least.friction);
       right -= Cone::product(scaled_, scaled_);

@@ -82,12 +82,12 @@ bool InteriorPath<Dim>::descend(double tau) {
   for (int k = 0; k < kMostSystems && idle < kPatience; ++k) {
     if (!evaluate()) return false;
     const double mean = mean_product();
-    const double residual = std::max(rows_.cwiseAbs().maxCoeff(), slack());
+    const double residual = std::max({rows_.cwiseAbs().maxCoeff(), slack(), kNoise});
     if (!std::isfinite(mean + residual)) return false;
     if (mean <= tau && residual <= kCloseRows) return true;
     idle = mean <= kGain * best_mean || residual <= kGain * best_residual ? 0 : idle + 1;
     best_mean = std::min(best_mean, mean);
-    best_residual = std::min(best_residual, std::max(residual, kNoise));
+    best_residual = std::min(best_residual, residual);
     if (!linearise()) return false;
     find_direction({}, step_);
     const double to_boundary = std::min(1.0, longest(step_));
@@ -102,6 +102,7 @@ template <int Dim>
 bool InteriorPath<Dim>::follow(double tau) {
   point_ = path_;
   const int before = factorisations_;
+  most_systems_ = before + kMostPathSystems - path_systems_;
   bool leads_on = centred_ || centre();
   if (leads_on && !centred_) path_ = point_;
   centred_ = leads_on;
@@ -236,7 +237,7 @@ template <int Dim>
 bool InteriorPath<Dim>::centre() {
   for (int k = 0; k < kCentring; ++k) {
     if (!evaluate() || !linearise()) return false;
-    find_direction({.tau = std::exp(point_.log_tau)}, step_);
+    find_direction({.tau = std::exp(point_.log_tau), .floor = kFloor}, step_);
     const double part = std::min(1.0, kCorrector * longest(step_));
     const bool close = part == 1.0 && largest(step_) < kClose;
     move(part, step_, true);
@@ -250,7 +251,7 @@ template <int Dim>
 bool InteriorPath<Dim>::advance() {
   if (!find_tangent()) return false;
   kept_ = point_;
-  while (length_ >= kShortestLength && path_systems_ < kMostPathSystems) {
+  while (length_ >= kShortestLength && factorisations_ < most_systems_) {
     const double length = std::min(length_, kPredictor * longest(tangent_));
     move(length, tangent_, false);
     if (correct()) {
@@ -266,17 +267,23 @@ bool InteriorPath<Dim>::advance() {
   return false;
 }
 
-/// The direction in which the path goes on: the one that keeps on in the last direction, downwards at first.
+/// The direction in which the path goes on: downwards at first, and up where the determinant has changed its
+/// sign; where that is not known the one that keeps on in the last direction.
 template <int Dim>
 bool InteriorPath<Dim>::find_tangent() {
   if (!evaluate() || !linearise()) return false;
-  find_direction({.tau = std::exp(point_.log_tau), .tangent = true}, step_);
+  find_direction({.tau = std::exp(point_.log_tau), .floor = kFloor, .tangent = true}, step_);
   const double size = std::sqrt(scalar_product(step_, step_));
   if (!std::isfinite(size)) return false;
-  const double forward = has_tangent_ ? scalar_product(step_, tangent_) : -1.0;
-  last_tangent_ = step_;
-  add((forward < 0 ? -1 : 1) / size - 1, step_, last_tangent_);
-  std::swap(tangent_, last_tangent_);
+  const double sign = system_.determinant_sign();
+  double forward = -1;
+  if (!has_tangent_) {
+    first_sign_ = sign;
+  } else {
+    forward = sign != 0 ? -sign * first_sign_ : scalar_product(step_, tangent_);
+  }
+  tangent_ = step_;
+  add((forward < 0 ? -1 : 1) / size - 1, step_, tangent_);
   has_tangent_ = true;
   return true;
 }
@@ -288,8 +295,8 @@ bool InteriorPath<Dim>::correct() {
   for (corrections_ = 1; corrections_ <= kCorrections; ++corrections_) {
     if (!evaluate() || !linearise()) return false;
     const double tau = std::exp(point_.log_tau);
-    find_direction({.tau = tau}, step_);
-    find_direction({.tau = tau, .tangent = true}, along_);
+    find_direction({.tau = tau, .floor = kFloor}, step_);
+    find_direction({.tau = tau, .floor = kFloor, .tangent = true}, along_);
     add(-scalar_product(tangent_, step_) / scalar_product(tangent_, along_), along_, step_);
     const double size = largest(step_);
     const double part = std::min(1.0, kCorrector * longest(step_));

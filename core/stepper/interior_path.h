@@ -83,13 +83,15 @@ class InteriorPath {
   Eigen::VectorXd rows_;  ///< of momentum
   Eigen::VectorXd right_side_, change_;
   Point point_, path_, kept_;
-  Step step_, tangent_, last_tangent_, along_;
+  Step step_, tangent_, along_;
   bool centred_ = false;  ///< path_ is on the path
   bool has_tangent_ = false;
-  double length_ = 0.0;  ///< of the next step along the path
-  int corrections_ = 0;  ///< of the last one
+  double first_sign_ = 0.0;  ///< of the determinant
+  double length_ = 0.0;      ///< of the next step along the path
+  int corrections_ = 0;      ///< of the last one
   int factorisations_ = 0;
   int path_systems_ = 0;  ///< of them, in follow()
+  int most_systems_ = 0;  ///< at which follow() gives up
 };
 
 }  // namespace touchstone
