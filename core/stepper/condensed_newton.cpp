@@ -29,11 +29,12 @@ constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a N
 constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
-constexpr double kInteriorStart = 1e-4;  ///< tau of the interior-point method, see InteriorPath
+constexpr std::array kInteriorStarts = {1e-3, 1e-6,
+                                        1e-4};  ///< tau of the interior-point method, see InteriorPath
 constexpr std::array kInteriorStages = {1e-7,  1e-9,  1e-11, 1e-12,
                                         1e-13, 1e-15, 1e-17};       ///< from where it goes straight down
 constexpr std::array kInteriorEnds = {1e-14, 1e-17, 1e-18, 1e-19};  ///< and to where
-constexpr std::array<std::array<double, 2>, 2> kDecisions = {{{1e2, 1e-4}, {1.0, 1e-3}}};  ///< see decide()
+constexpr std::array<std::array<double, 2>, 2> kDecisions = {{{1e3, 1e-6}, {1e2, 1e-4}}};  ///< see decide()
 constexpr int kDecidingSteps = 15;
 constexpr double kMostHold = 1.0;
 constexpr double kLessHold = 1.0 / 3;  ///< after a step that is taken ...
@@ -106,32 +107,43 @@ const std::array<typename CondensedNewton<Dim>::Rescue, 15> CondensedNewton<Dim>
     {.sweeps = 5000, .from_cold = true, .search = Rescue::Search::line_search, .damps = true},
 }};
 
-/// By an interior-point method (interior_path.h): straight down, and where that gets stuck, from points of
-/// its path, ever farther down.
+/// By an interior-point method (interior_path.h): straight down from several starts, and where that gets
+/// stuck, from points of its path, ever farther down.
 template <int Dim>
 SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
   SolveReport report;
   report.residual = std::numeric_limits<double>::infinity();
-  interior_.begin(*problem_, z, kInteriorStart);
-  int searches = 0;
+  int iterations = 0;
   const auto descend = [&] {
-    for (const double end : kInteriorEnds) {
-      if (!interior_.descend(end)) return false;
+    bool arrived = true;
+    for (std::size_t k = 0; k < kInteriorEnds.size() && arrived; ++k) {
+      arrived = interior_.descend(kInteriorEnds[k]);
+      if (!arrived && k == 0) return false;  // too far up to tell which contacts slip
       for (const auto& [load, hold] : kDecisions) {
         interior_.write(z);
         report = decide(load, hold, z);
-        searches += report.iterations;
+        iterations += report.iterations;
         if (is_acceptable(report)) return true;
       }
     }
     return false;
   };
-  if (!descend()) {
-    for (const double tau : kInteriorStages) {
-      if (!interior_.follow(tau) || descend()) break;
-    }
+  const auto search_from = [&](double start) {
+    interior_.begin(*problem_, relaxed_, start);
+    return descend();
+  };
+  bool solved = false;
+  for (const double start : kInteriorStarts) {
+    if (solved) break;
+    solved = search_from(start);
+    iterations += interior_.factorisations();
   }
-  report.iterations = searches + interior_.factorisations();
+  const int before = interior_.factorisations();
+  for (const double tau : kInteriorStages) {
+    if (solved || !interior_.follow(tau)) break;
+    solved = descend();
+  }
+  report.iterations = iterations + interior_.factorisations() - before;
   return report;
 }
 
