@@ -29,12 +29,16 @@ constexpr double kShortest = 1.0 / 128;  ///< its shortest step, relative to a N
 constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
-constexpr std::array kInteriorStarts = {1e-3, 1e-6,
-                                        1e-4};  ///< tau of the interior-point method, see InteriorPath
-constexpr std::array kInteriorStages = {1e-7,  1e-9,  1e-11, 1e-12,
-                                        1e-13, 1e-15, 1e-17};       ///< from where it goes straight down
-constexpr std::array kInteriorEnds = {1e-14, 1e-17, 1e-18, 1e-19};  ///< and to where
-constexpr std::array<std::array<double, 2>, 2> kDecisions = {{{1e3, 1e-6}, {1e2, 1e-4}}};  ///< see decide()
+// of interior_search(), values of tau in InteriorPath
+constexpr std::array kInteriorStarts = {1e-3, 1e-6, 1e-4};
+/// Of the path, from which it goes straight down ...
+constexpr std::array kInteriorStages = {1e-7, 1e-9, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
+/// ... to these, one after the other.
+constexpr std::array kInteriorEnds = {1e-14, 1e-17, 1e-18, 1e-19};
+constexpr double kTelling = 1e-13;  ///< at which it may be told which contacts slip
+// of decide()
+/// Weight of slip and hold of impulses to begin with.
+constexpr std::array<std::array<double, 2>, 2> kDecisions = {{{1e3, 1e-6}, {1e2, 1e-4}}};
 constexpr int kDecidingSteps = 15;
 constexpr double kMostHold = 1.0;
 constexpr double kLessHold = 1.0 / 3;  ///< after a step that is taken ...
@@ -118,7 +122,7 @@ SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
     bool arrived = true;
     for (std::size_t k = 0; k < kInteriorEnds.size() && arrived; ++k) {
       arrived = interior_.descend(kInteriorEnds[k]);
-      if (!arrived && k == 0) return false;  // too far up to tell which contacts slip
+      if (!arrived && !(interior_.mean_product() <= kTelling)) return false;
       for (const auto& [load, hold] : kDecisions) {
         interior_.write(z);
         report = decide(load, hold, z);

@@ -38,6 +38,8 @@ class InteriorPath {
   [[nodiscard]] bool follow(double tau);
   /// Where the last of both ended, into z.
   void write(Eigen::VectorXd& z) const { z.head(problem_->size()) = point_.z; }
+  /// Mean of the products that are to be tau there, without those that are as small as they need be.
+  [[nodiscard]] double mean_product() const;
   /// Linear systems since begin().
   [[nodiscard]] int factorisations() const { return factorisations_; }
 
@@ -62,7 +64,6 @@ class InteriorPath {
   [[nodiscard]] bool evaluate();
   [[nodiscard]] bool linearise();
   void find_direction(const Goal& goal, Step& step);
-  [[nodiscard]] double mean_product() const;
   [[nodiscard]] double slack() const;
   [[nodiscard]] double longest(const Step& step) const;
   void move(double factor, const Step& step, bool residual);
