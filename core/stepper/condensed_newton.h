@@ -30,7 +30,8 @@ struct CondensedOptions {
 /// between stick and slip are many; a line search on the merit of Fischer and Burmeister's function; and all
 /// of these from where Gauss-Seidel sweeps lead (contact_sweeps.h), with closest points found anew where a
 /// step loses them. What is left then is for the full problem's solvers. Problems of many contacts are first
-/// relaxed (contact_relaxation.h), which mostly solves them without a Newton step.
+/// relaxed (contact_relaxation.h), which mostly solves them without a Newton step; where that ends, near
+/// rest, an interior-point method goes on (interior_search.cpp).
 template <int Dim>
 class CondensedNewton {
  public:
@@ -87,12 +88,14 @@ class CondensedNewton {
   [[nodiscard]] bool advance(bool chord, int iteration, Eigen::VectorXd& z);
   [[nodiscard]] bool restore(Eigen::VectorXd& z);
   [[nodiscard]] SolveReport approach(StepProblem<Dim>& problem, Eigen::VectorXd& z);
-  [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
-  [[nodiscard]] SolveReport decide(double load, double hold, Eigen::VectorXd& z);
   [[nodiscard]] SolveReport rescue(const Rescue& rescue, Eigen::VectorXd& z);
   [[nodiscard]] bool is_acceptable(const SolveReport& report) const {
     return report.solved() || report.residual <= options_.acceptable;
   }
+
+  // interior_search.cpp
+  [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport decide(double load, double hold, Eigen::VectorXd& z);
 
   // smoothed_search.cpp
   [[nodiscard]] SolveReport smoothed_search(Eigen::VectorXd& z);

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kRegular = 1e-8;  ///< smallest pivot, relative to its column, to eliminate points with
 constexpr double kLost = 1e-2;     ///< residual of closest points above which they are found anew
-constexpr double kGapFloor = 10;   ///< of a gap, over that of a slip: rounding of a position over h V
 constexpr int kHalvings = 60;      ///< of an interval, to rounding
 
 }  // namespace

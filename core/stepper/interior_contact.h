@@ -45,8 +45,7 @@ class InteriorContact {
   static constexpr int kFriction = Dimension<Dim>::friction;
 
   /// Least products that are of use: a contact that sticks or closes has a slip or gap of `floor` V at least,
-  /// and one that slips is off its greatest friction by this part of it. What is less is not told by
-  /// rounding.
+  /// and one that slips is off its greatest friction by this part of it. Rounding does not tell what is less.
   struct Floors {
     double normal = 0.0;
     double friction = 0.0;
