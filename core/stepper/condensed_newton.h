@@ -95,6 +95,7 @@ class CondensedNewton {
 
   // interior_search.cpp
   [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
+  void drop_idle_loads(SolveReport& report, Eigen::VectorXd& z);
   [[nodiscard]] SolveReport decide(double load, double hold, Eigen::VectorXd& z);
 
   // smoothed_search.cpp

@@ -1,5 +1,6 @@
 // The search of CondensedNewton for heaps at rest: by an interior-point method (interior_path.h) to where it
 // is told which contacts slip, and Newton's method from there.
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -44,7 +45,9 @@ SolveReport CondensedNewton<Dim>::interior_search(Eigen::VectorXd& z) {
         interior_.write(z);
         report = decide(load, hold, z);
         iterations += report.iterations;
-        if (is_acceptable(report)) return true;
+        if (!is_acceptable(report)) continue;
+        drop_idle_loads(report, z);
+        return true;
       }
     }
     return false;
@@ -107,8 +110,32 @@ SolveReport CondensedNewton<Dim>::decide(double load, double hold, Eigen::Vector
   return report;
 }
 
+/// Of contacts that are open: an interior point leaves every contact some load, and a hold keeps a part of
+/// it.
+template <int Dim>
+void CondensedNewton<Dim>::drop_idle_loads(SolveReport& report, Eigen::VectorXd& z) {
+  const Eigen::Index n = problem_->size();
+  trial_.head(n) = z.head(n);
+  const double per_length = 1 / problem_->scale().length;
+  for (std::size_t i = 0; i < problem_->contacts().size(); ++i) {
+    const ContactLayout& at = problem_->layout().contact(i);
+    if (!(z[at.normal] <= options_.acceptable && per_length * problem_->separation(i) > z[at.normal]))
+      continue;
+    z.template segment<Dimension<Dim>::friction>(at.friction).setZero();
+    z[at.normal] = 0;
+  }
+  system_.evaluate(z);
+  if (!(system_.residual() <= std::max(report.residual, options_.tolerance))) {
+    z.head(n) = trial_.head(n);
+    system_.evaluate(z);
+  }
+  report.residual = system_.residual();
+}
+
 template SolveReport CondensedNewton<2>::interior_search(Eigen::VectorXd&);
 template SolveReport CondensedNewton<3>::interior_search(Eigen::VectorXd&);
+template void CondensedNewton<2>::drop_idle_loads(SolveReport&, Eigen::VectorXd&);
+template void CondensedNewton<3>::drop_idle_loads(SolveReport&, Eigen::VectorXd&);
 template SolveReport CondensedNewton<2>::decide(double, double, Eigen::VectorXd&);
 template SolveReport CondensedNewton<3>::decide(double, double, Eigen::VectorXd&);
 
