@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMany = 60;        ///< contacts above which rounds of sweeps come first
 constexpr double kRelaxed = 0.5;         ///< of the tolerance, that they are asked for
-constexpr double kNear = 1e-3;           ///< residual from which Newton's method goes on
+constexpr double kNear = 1e-3;           ///< residual after them from which Newton's method goes on
 constexpr int kFullSteps = 15;           ///< tried before anything else
 constexpr int kFinishSteps = 30;         ///< from near a solution
 constexpr int kSettlingSteps = 20;       ///< for the least of what rounding leaves
@@ -48,9 +48,23 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     iterations += report.iterations;
     return report;
   };
-  if (problem.contacts().size() > kMany && problem.joints().empty()) {
-    const SolveReport report = attempt([&] { return approach(problem, z); });
+  const bool is_large = problem.contacts().size() > kMany && problem.joints().empty();
+  if (is_large) {
+    SolveReport report = attempt([&] { return approach(problem, z); });
+    // What rounding explains is one step of Newton's method away, if any.
+    if (!is_acceptable(report) && InteriorPath<Dim>::applies_to(problem)) {
+      bind(problem);
+      report = attempt([&] { return interior_search(z); });
+      if (is_acceptable(report)) report.status = SolveStatus::solved;
+    }
+    report.iterations = iterations;
     if (report.solved()) return report;
+    if (relaxation_.residual() <= kNear) {
+      z.head(n) = relaxed_.head(n);
+      start_.head(n) = relaxed_.head(n);
+    } else {
+      z.head(n) = start_.head(n);
+    }
   }
   bind(problem);
   SolveReport report =
@@ -171,10 +185,11 @@ void CondensedNewton<Dim>::set_strategy(const Strategy& strategy) {
   strategy_ = strategy;
   system_.set_form({.fischer_burmeister = strategy.line_search,
                     .chooses_faces = strategy.follows,
-                    .damps = strategy.damps});
+                    .damps = strategy.damps,
+                    .hold = strategy.hold});
 }
 
-/// Rounds of sweeps from z; what is tried after them starts where they end, if that is near a solution.
+/// Rounds of sweeps from z, which is left where they end.
 template <int Dim>
 SolveReport CondensedNewton<Dim>::approach(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
   SolveReport report;
@@ -182,11 +197,8 @@ SolveReport CondensedNewton<Dim>::approach(StepProblem<Dim>& problem, Eigen::Vec
   report.residual = relaxation_.residual();
   report.status = report.residual <= options_.tolerance ? SolveStatus::solved : SolveStatus::stalled;
   const Eigen::Index n = problem.size();
-  if (report.residual <= kNear) {
-    start_.head(n) = z.head(n);
-  } else {
-    z.head(n) = start_.head(n);
-  }
+  make_room(relaxed_, n);
+  relaxed_.head(n) = z.head(n);
   return report;
 }
 

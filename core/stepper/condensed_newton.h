@@ -7,6 +7,7 @@
 #include "core/stepper/condensed_system.h"
 #include "core/stepper/contact_relaxation.h"
 #include "core/stepper/contact_sweeps.h"
+#include "core/stepper/interior_path.h"
 #include "core/stepper/step_problem.h"
 
 namespace touchstone {
@@ -29,7 +30,8 @@ struct CondensedOptions {
 /// between stick and slip are many; a line search on the merit of Fischer and Burmeister's function; and all
 /// of these from where Gauss-Seidel sweeps lead (contact_sweeps.h), with closest points found anew where a
 /// step loses them. What is left then is for the full problem's solvers. Problems of many contacts are first
-/// relaxed (contact_relaxation.h), which mostly solves them without a Newton step.
+/// relaxed (contact_relaxation.h), which mostly solves them without a Newton step; where that ends, near
+/// rest, an interior-point method goes on (interior_search.cpp).
 template <int Dim>
 class CondensedNewton {
  public:
@@ -58,6 +60,7 @@ class CondensedNewton {
     bool restores = false;  ///< finds closest points anew where a step loses them
     bool follows = false;   ///< brings closest points after a trial step that loses them: follow_points()
     bool damps = false;     ///< holds on to the contacts' impulses
+    double hold = 0.0;      ///< see CondensedForm
     int limit = 0;          ///< of Newton steps
   };
 
@@ -90,6 +93,11 @@ class CondensedNewton {
     return report.solved() || report.residual <= options_.acceptable;
   }
 
+  // interior_search.cpp
+  [[nodiscard]] SolveReport interior_search(Eigen::VectorXd& z);
+  void drop_idle_loads(SolveReport& report, Eigen::VectorXd& z);
+  [[nodiscard]] SolveReport decide(double load, double hold, Eigen::VectorXd& z);
+
   // smoothed_search.cpp
   [[nodiscard]] SolveReport smoothed_search(Eigen::VectorXd& z);
   [[nodiscard]] bool sharpen(Stage& stage, Eigen::VectorXd& z);
@@ -104,8 +112,10 @@ class CondensedNewton {
   CondensedSystem<Dim> system_;
   ContactSweeps<Dim> sweeps_;
   ContactRelaxation<Dim> relaxation_;
+  InteriorPath<Dim> interior_;
   Strategy strategy_;
   Eigen::VectorXd start_, trial_, best_;
+  Eigen::VectorXd relaxed_;            ///< where rounds of sweeps ended
   std::vector<double> recent_merits_;  ///< of the line search
 };
 

@@ -16,6 +16,8 @@ struct CondensedForm {
   bool chooses_faces = false;
   /// Holds on to the contacts' impulses, see CondensedSystem.
   bool damps = false;
+  /// By this much, if it is not 0, instead of what goes with the residual.
+  double hold = 0.0;
   /// tau of the function and of friction (friction_rows()), an impulse over m V; 0: the problem as it is.
   double smoothing = 0.0;
 

@@ -103,6 +103,7 @@ void CondensedSystem<Dim>::condense(const Eigen::VectorXd& z) {
 /// that what it allows of the change and what it costs in convergence both vanish at a solution.
 template <int Dim>
 double CondensedSystem<Dim>::hold() const {
+  if (form_.hold > 0) return form_.hold;
   return kHold * std::sqrt(std::min(total_.residual, 1.0));
 }
 

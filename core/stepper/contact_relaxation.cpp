@@ -18,10 +18,13 @@ constexpr double kRoundGain = 0.5;     ///< factor of the residual that counts a
 constexpr double kSweepGain = 0.05;    ///< of the residual: largest change of an impulse that ends a round
 constexpr int kFirstStage = 40;        ///< sweeps before they are narrowed to where impulses change
 constexpr double kNearLargest = 0.01;  ///< of the largest residual: bodies from there on are chosen ...
-constexpr int kHops = 2;               ///< ... with their neighbours up to so many contacts away
-constexpr int kPatience = 2;           ///< rounds without a gain after which one that rises is shortened
-constexpr double kShortest = 0.25;     ///< part of a round that is taken at least
-constexpr int kFalls = 3;              ///< rounds in a row that fall after which they are lengthened again
+/// Slack over the largest residual from which a contact without load is left alone for a round, since
+/// velocities change by less; were it wrong, the contact's residual would tell in the end.
+constexpr double kFar = 30;
+constexpr int kHops = 2;            ///< ... with their neighbours up to so many contacts away
+constexpr int kPatience = 2;        ///< rounds without a gain after which one that rises is shortened
+constexpr double kShortest = 0.25;  ///< part of a round that is taken at least
+constexpr int kFalls = 3;           ///< rounds in a row that fall after which they are lengthened again
 
 /// The larger of two; NaN is larger than any number.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
@@ -57,8 +60,21 @@ int ContactRelaxation<Dim>::run(StepProblem<Dim>& problem, double tolerance, Eig
       pace.sweeps = std::min(2 * pace.sweeps, kMostSweeps);
       if (pace.falls > kFalls) pace.part = std::min(2 * pace.part, 1.0);
     }
+    if (residual_ <= tolerance) take_up(problem, z);
   }
+  take_up(problem, z);
   return rounds;
+}
+
+/// Geometry of the contacts that were left, and residuals anew.
+template <int Dim>
+void ContactRelaxation<Dim>::take_up(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!contacts_[i].left) continue;
+    problem.find_points(i, z);
+    evaluate(problem, i, z);
+  }
+  judge_all(problem, z);
 }
 
 /// Sweeps over the contacts that are chosen, and geometry and residuals anew.
@@ -66,7 +82,7 @@ template <int Dim>
 void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z) {
   const bool shortened = pace.part < 1;
   if (shortened) start_ = z;
-  sweeps_.freeze(problem, touched_, chosen_, z);
+  sweeps_.start(problem, touched_, chosen_);
   written_ = swept_;
   sweep(pace.sweeps, kSweepGain * std::min(residual_, 1.0));
   sweeps_.write(problem, written_, chosen_, z);
@@ -75,22 +91,19 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
     problem.find_points(i, z);
     evaluate(problem, i, z);
   }
-  for (const std::size_t i : touched_) {
-    for (const int place : contacts_[i].place) {
-      if (place >= 0) judge(problem, place, z);
-    }
-  }
-  for (const std::size_t b : chosen_) judge(problem, static_cast<int>(b), z);
-  residual_ = 0;
-  for (const Body& body : bodies_) residual_ = larger(residual_, body.residual);
+  for (const std::size_t b : judged_) judge(problem, b, z);
+  find_residual();
 }
 
 /// Sweeps over what is chosen, and then, longer each time, over where impulses still change.
 template <int Dim>
 void ContactRelaxation<Dim>::sweep(int limit, double tolerance) {
+  using Acceleration = SweepAcceleration::Kind;
   int made = 0;
   for (int stage = kFirstStage; made < limit && !swept_.empty(); stage *= 2) {
-    made += sweeps_.run_accelerated(swept_, std::min(stage, limit - made), tolerance);
+    // Where impulses still change after the first stage, contacts open and slide in turn.
+    const Acceleration kind = made == 0 ? Acceleration::anderson : Acceleration::conjugate_gradients;
+    made += sweeps_.run_accelerated(swept_, std::min(stage, limit - made), tolerance, kind);
     narrow(tolerance);
   }
 }
@@ -134,11 +147,7 @@ void ContactRelaxation<Dim>::bind(const StepProblem<Dim>& problem, Eigen::Vector
       if (place >= 0) neighbours_[next[static_cast<std::size_t>(place)]++] = i;
     }
   }
-  residual_ = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    judge(problem, static_cast<int>(b), z);
-    residual_ = larger(residual_, bodies_[b].residual);
-  }
+  judge_all(problem, z);
 }
 
 /// Rows of contact i at z; sigma = |w| is eliminated here.
@@ -147,6 +156,7 @@ void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size
   Contact& contact = contacts_[i];
   const ContactLayout& in_z = problem.layout().contact(i);
   problem.evaluate_state(i, z);
+  sweeps_.freeze(problem, i, z);
   problem.contact_block(i, false, block_);
   contact.place = problem.places(i);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -156,6 +166,9 @@ void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size
   z[in_z.slip] -= block_.f[block_.at.slip];
   const double p = z[in_z.normal];
   contact.loaded = p > 0;
+  contact.slack =
+      contact.loaded ? 0.0 : problem.separation(i) / (problem.step_size() * problem.scale().velocity);
+  contact.left = false;
   contact.residual = problem.is_spurious(i) ? StepProblem<Dim>::kSpuriousResidual : 0.0;
   const auto take = [&](double value) { contact.residual = larger(contact.residual, std::abs(value)); };
   for (Eigen::Index r = block_.own; r < block_.at.normal; ++r) take(block_.f[r]);
@@ -165,8 +178,14 @@ void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size
 }
 
 template <int Dim>
-void ContactRelaxation<Dim>::judge(const StepProblem<Dim>& problem, int body, const Eigen::VectorXd& z) {
-  const auto b = static_cast<std::size_t>(body);
+void ContactRelaxation<Dim>::judge_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) judge(problem, b, z);
+  find_residual();
+}
+
+template <int Dim>
+void ContactRelaxation<Dim>::judge(const StepProblem<Dim>& problem, std::size_t b, const Eigen::VectorXd& z) {
+  const int body = static_cast<int>(b);
   Twist<Dim> momentum = problem.momentum_row(body, z);
   double worst = 0;
   for (const std::size_t i : contacts_of(b)) {
@@ -176,6 +195,12 @@ void ContactRelaxation<Dim>::judge(const StepProblem<Dim>& problem, int body, co
   }
   for (const double row : momentum) worst = larger(worst, std::abs(row));
   bodies_[b].residual = worst;
+}
+
+template <int Dim>
+void ContactRelaxation<Dim>::find_residual() {
+  residual_ = 0;
+  for (const Body& body : bodies_) residual_ = larger(residual_, body.residual);
 }
 
 /// Bodies whose residual is above `threshold` with their neighbours, and their contacts.
@@ -190,11 +215,22 @@ void ContactRelaxation<Dim>::choose(double threshold) {
   std::sort(chosen_.begin(), chosen_.end());
   touched_.clear();
   swept_.clear();
+  for (Body& body : bodies_) body.judged = body.chosen;
+  judged_ = chosen_;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& contact = contacts_[i];
     if (!has(&Body::chosen, contact.place[0]) && !has(&Body::chosen, contact.place[1])) continue;
+    if (contact.slack > kFar * residual_ && contact.residual <= threshold) {
+      contacts_[i].left = true;
+      continue;
+    }
     touched_.push_back(i);
     if (have(&Body::chosen, contact)) swept_.push_back(i);
+    for (const int place : contact.place) {
+      if (place < 0 || has(&Body::judged, place)) continue;
+      bodies_[static_cast<std::size_t>(place)].judged = true;
+      judged_.push_back(static_cast<std::size_t>(place));
+    }
   }
 }
 

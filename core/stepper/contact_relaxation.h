@@ -33,11 +33,15 @@ class ContactRelaxation {
     std::array<Twist<Dim>, 2> wrench{};  ///< in the momentum rows of its bodies
     double residual = 0.0;               ///< of its own rows
     bool loaded = false;
+    /// psi / (h V) where it has no load: by how much more it could close, and stay open; else 0.
+    double slack = 0.0;
+    bool left = false;  ///< out of rounds, as its slack is large, and not evaluated since
   };
   struct Body {
     double residual = 0.0;  ///< of its momentum and of its contacts
     bool chosen = false;    ///< for this round
     bool swept = false;     ///< still, in this round
+    bool judged = false;    ///< after it
   };
 
   /// How rounds go.
@@ -52,11 +56,14 @@ class ContactRelaxation {
   };
 
   void bind(const StepProblem<Dim>& problem, Eigen::VectorXd& z);
+  void take_up(StepProblem<Dim>& problem, Eigen::VectorXd& z);
   void relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z);
   void sweep(int limit, double tolerance);
   void narrow(double tolerance);
   void evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
-  void judge(const StepProblem<Dim>& problem, int body, const Eigen::VectorXd& z);
+  void judge_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
+  void judge(const StepProblem<Dim>& problem, std::size_t b, const Eigen::VectorXd& z);
+  void find_residual();
   void choose(double threshold);
   void spread(bool Body::*mark, std::vector<std::size_t>& bodies);
   /// Whether a body is marked; false of a fixed one.
@@ -82,7 +89,8 @@ class ContactRelaxation {
                                       ///< the ones near impulses that still change
   std::vector<std::size_t> written_;  ///< the former
   std::vector<std::size_t> moving_;   ///< bodies of those whose impulses still change
-  std::vector<std::size_t> touched_;  ///< contacts of which one is
+  std::vector<std::size_t> touched_;  ///< contacts of which a body is chosen
+  std::vector<std::size_t> judged_;   ///< their bodies
   double residual_ = 0.0;
   Eigen::VectorXd start_;  ///< of the round
 };

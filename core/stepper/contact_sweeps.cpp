@@ -2,17 +2,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <ranges>
 
 namespace touchstone {
 
 namespace {
-
-constexpr double kRise = 1.1;  ///< factor of changes at which conjugate gradients begin anew
-/// Where more contacts stick than the motion needs, some combination of impulses grows at the same rate in
-/// each sweep until one of its contacts slides: where changes stay at more than this factor of the last ones
-/// ...
-constexpr double kSteady = 0.98;
-constexpr double kGrowth = 1.05;  ///< ... the step is lengthened by this one
 
 constexpr std::array<std::size_t, 2> kSides = {0, 1};
 
@@ -31,7 +25,7 @@ Angular<3> moment(const Vector<3>& r, const Vector<3>& force) { return r.cross(f
 
 template <int Dim>
 void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen::VectorXd& z) {
-  freeze(problem, z);
+  freeze_all(problem, z);
   for (int round = 0; round < sweeps; ++round) sweep_all(round % 2 == 0);
   write(problem, z);
 }
@@ -48,37 +42,73 @@ void ContactSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
         scale[Dim] * matrix.template bottomRightCorner<kAngular, kAngular>().inverse();
   }
   contacts_.resize(problem.contacts().size());
-  courses_.resize(contacts_.size());
+  contact_courses_.resize(contacts_.size());
+  body_courses_.resize(bodies_.size());
   joints_.clear();
 }
 
 template <int Dim>
-void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
-                                std::span<const std::size_t> bodies, const Eigen::VectorXd& z) {
+void ContactSweeps<Dim>::start(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+                               std::span<const std::size_t> bodies) {
   for (Body& body : bodies_) body.moves = false;
   for (const std::size_t b : bodies) {
     bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
     bodies_[b].moves = true;
   }
-  for (const std::size_t i : contacts) {
-    freeze_contact(problem, i, z);
-    push(contacts_[i], contacts_[i].impulse(), true);
+  for (const std::size_t i : contacts) push(contacts_[i], contacts_[i].impulse(), true);
+}
+
+template <int Dim>
+int ContactSweeps<Dim>::run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance,
+                                        SweepAcceleration::Kind kind) {
+  acceleration_.begin(kind);
+  list_bodies(contacts);
+  for (int sweeps = 2;; sweeps += 2) {
+    double largest = 0;
+    for (const std::size_t i : contacts) {
+      if (sweeps > 2) take_step(i);
+      contacts_[i].before = contacts_[i].impulse();
+      sweep(contacts_[i]);
+    }
+    for (const std::size_t i : std::views::reverse(contacts)) {
+      sweep(contacts_[i]);
+      const Impulse change = contacts_[i].impulse() - contacts_[i].before;
+      contact_courses_[i].record(acceleration_, change.template cast<float>());
+      largest = std::max(largest, change.cwiseAbs().maxCoeff());
+    }
+    if (largest <= tolerance || sweeps >= limit) return sweeps;
+    for (const std::size_t b : swept_bodies_)
+      body_courses_[b].record(acceleration_, (bodies_[b].nu - bodies_[b].before).template cast<float>());
+    acceleration_.decide();
+    for (const std::size_t b : swept_bodies_) {
+      bodies_[b].nu += body_courses_[b].step(acceleration_).template cast<double>();
+      bodies_[b].before = bodies_[b].nu;
+    }
   }
 }
 
 template <int Dim>
-int ContactSweeps<Dim>::run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance) {
-  const auto sweep_one = [&](std::size_t i) { sweep(contacts_[i]); };
-  for (const std::size_t i : contacts) courses_[i] = {.before = contacts_[i].impulse()};
-  last_change_ = 0;
-  int sweeps = 0;
-  while (sweeps < limit) {
-    std::for_each(contacts.begin(), contacts.end(), sweep_one);
-    std::for_each(contacts.rbegin(), contacts.rend(), sweep_one);
-    sweeps += 2;
-    if (accelerate(contacts) <= tolerance) break;
+void ContactSweeps<Dim>::list_bodies(std::span<const std::size_t> contacts) {
+  swept_bodies_.clear();
+  for (const std::size_t i : contacts) {
+    for (const int place : contacts_[i].place) {
+      if (place < 0) continue;
+      Body& body = bodies_[static_cast<std::size_t>(place)];
+      if (body.listed) continue;
+      body.listed = true;
+      body.before = body.nu;
+      swept_bodies_.push_back(static_cast<std::size_t>(place));
+    }
   }
-  return sweeps;
+  for (const std::size_t b : swept_bodies_) bodies_[b].listed = false;
+}
+
+/// Of the impulses of contact i; those of its bodies' velocities have been taken, which saves pushing them.
+template <int Dim>
+void ContactSweeps<Dim>::take_step(std::size_t i) {
+  const Impulse step = contact_courses_[i].step(acceleration_).template cast<double>();
+  contacts_[i].y += step.template head<kFriction>();
+  contacts_[i].p += step[kFriction];
 }
 
 template <int Dim>
@@ -90,13 +120,13 @@ void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<const 
 
 /// Geometry and gaps at z, and the velocities that its impulses lead to.
 template <int Dim>
-void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
+void ContactSweeps<Dim>::freeze_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
   bind(problem);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     problem.evaluate_state(i, z);
-    freeze_contact(problem, i, z);
+    freeze(problem, i, z);
     push(contacts_[i], contacts_[i].impulse());
   }
   freeze_joints(problem, z);
@@ -139,8 +169,7 @@ void ContactSweeps<Dim>::write_impulse(const StepProblem<Dim>& problem, std::siz
 }
 
 template <int Dim>
-void ContactSweeps<Dim>::freeze_contact(const StepProblem<Dim>& problem, std::size_t i,
-                                        const Eigen::VectorXd& z) {
+void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z) {
   Contact& contact = contacts_[i];
   const ContactState<Dim>& state = problem.state(i);
   contact.unit = problem.prepared(i).mass * problem.scale().velocity;
@@ -210,43 +239,6 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
   }
 }
 
-/// A step of nonlinear conjugate gradients (Silcowitz, Niebe & Erleben 2010): the change that the last pair
-/// of sweeps made is taken as the residual of a symmetric system, and the last direction goes on for as long
-/// as changes fall.
-/// @return  the largest change of an impulse in that pair
-template <int Dim>
-double ContactSweeps<Dim>::accelerate(std::span<const std::size_t> contacts) {
-  double change = 0;
-  double largest = 0;
-  for (const std::size_t i : contacts) {
-    Course& course = courses_[i];
-    const Impulse swept = contacts_[i].impulse() - course.before;
-    change += swept.squaredNorm();
-    course.change = swept.cwiseAbs().maxCoeff();
-    largest = std::max(largest, course.change);
-  }
-  const bool goes_on = last_change_ > 0 && change <= kRise * last_change_;
-  double beta = goes_on ? change / last_change_ : 0.0;
-  if (beta > kSteady) beta = kGrowth;
-  last_change_ = change;
-  for (const std::size_t i : contacts) {
-    Contact& contact = contacts_[i];
-    Course& course = courses_[i];
-    const Impulse swept = contact.impulse() - course.before;
-    if (goes_on) {
-      const Impulse step = beta * course.direction;
-      contact.y += step.template head<kFriction>();
-      contact.p += step[kFriction];
-      push(contact, step);
-      course.direction = step + swept;
-    } else {
-      course.direction.setZero();
-    }
-    course.before = contact.impulse();
-  }
-  return largest;
-}
-
 /// Velocity of body 1 against body 2 at the contact, and how it turns against it.
 template <int Dim>
 Twist<Dim> ContactSweeps<Dim>::relative_velocity(const Contact& contact) const {
@@ -299,7 +291,7 @@ void ContactSweeps<Dim>::sweep(Contact& contact) {
   const Twist<Dim> relative = relative_velocity(contact);
   const double approach = contact.gap_velocity + contact.normal.dot(relative.template head<Dim>());
   const double p = std::max(0.0, contact.p - contact.normal_step * approach);
-  if (p == 0 && contact.p == 0) return;  // most of those that are near: neither has friction
+  if (p == 0 && contact.p == 0 && contact.y == FrictionVector<Dim>::Zero()) return;  // most that are near
   FrictionVector<Dim> y = contact.y - contact.friction_step * slip(contact, relative);
   const double length = y.norm();
   if (length > contact.mu * p) y *= contact.mu * p / length;

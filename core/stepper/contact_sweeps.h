@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/stepper/step_problem.h"
+#include "core/stepper/sweep_acceleration.h"
 
 namespace touchstone {
 
@@ -21,19 +22,23 @@ class ContactSweeps {
 
   /// Makes room for the problem's contacts and bodies.
   void bind(const StepProblem<Dim>& problem);
-  /// Freezes the geometry of `contacts` at z, where the problem evaluated them last, and sets the velocities
-  /// of `bodies` to what the impulses of all their contacts lead to.
-  /// @param contacts  all those of `bodies` among them
+  /// Freezes the geometry of contact i at z, where the problem evaluated it last, and takes its impulses.
+  void freeze(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
+  /// Sets the velocities of `bodies` to what the impulses of all their contacts lead to.
+  /// @param contacts  all of `bodies` that have impulses among them
   /// @param bodies  by number in the island
-  void freeze(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
-              std::span<const std::size_t> bodies, const Eigen::VectorXd& z);
-  /// Sweeps over `contacts`, every other time backwards and with a step of conjugate gradients after each
-  /// pair, which many contacts that carry each other's load need; until a pair changes no impulse by more
-  /// than `tolerance`, in the problem's units.
-  /// @return  sweeps made, at most `limit`
-  int run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance);
+  void start(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
+             std::span<const std::size_t> bodies);
+  /// Sweeps over `contacts`, every other time backwards and accelerated after each pair, which many contacts
+  /// that carry each other's load need; until a pair changes no impulse by more than `tolerance`, in the
+  /// problem's units.
+  /// @return  sweeps made, about `limit` at most
+  int run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance,
+                      SweepAcceleration::Kind kind);
   /// Largest change of an impulse of contact i in the last pair of sweeps over it.
-  [[nodiscard]] double change(std::size_t i) const { return courses_[i].change; }
+  [[nodiscard]] double change(std::size_t i) const {
+    return static_cast<double>(contact_courses_[i].change().cwiseAbs().maxCoeff());
+  }
   /// Velocities of `bodies` and impulses of `contacts` into z.
   void write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
              std::span<const std::size_t> bodies, Eigen::VectorXd& z) const;
@@ -50,7 +55,9 @@ class ContactSweeps {
     double inverse_mass = 0.0;  ///< [1/kg]
     Eigen::Matrix<double, kAngular, kAngular> inverse_inertia =
         Eigen::Matrix<double, kAngular, kAngular>::Zero();  ///< [1/(kg m^2)]
-    bool moves = false;                                     ///< in the last freeze()
+    Twist<Dim> before = Twist<Dim>::Zero();                 ///< where the last pair of sweeps began
+    bool moves = false;                                     ///< since the last start()
+    bool listed = false;                                    ///< among swept_bodies_
   };
   struct Contact {
     std::array<int, 2> place{-1, -1};
@@ -63,16 +70,11 @@ class ContactSweeps {
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
     double mu = 0.0;
+    Impulse before = Impulse::Zero();  ///< where the last pair of sweeps began
     Eigen::Matrix<double, Dim, kTangent> tangents = Eigen::Matrix<double, Dim, kTangent>::Zero();
     FrictionVector<Dim> semi_axes = FrictionVector<Dim>::Zero();
 
     [[nodiscard]] Impulse impulse() const { return (Impulse() << y, p).finished(); }
-  };
-  /// What accelerate() knows of a contact.
-  struct Course {
-    Impulse before = Impulse::Zero();     ///< where the last pair of sweeps began
-    Impulse direction = Impulse::Zero();  ///< of conjugate gradients
-    double change = 0.0;                  ///< largest of an impulse in the last pair of sweeps
   };
   struct JointRow {
     std::array<int, 2> place{-1, -1};
@@ -84,13 +86,13 @@ class ContactSweeps {
     double impulse = 0.0;
   };
 
-  void freeze(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
-  void freeze_contact(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
+  void freeze_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void freeze_joints(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void sweep_all(bool forward);
   void sweep(Contact& contact);
   void sweep(JointRow& row);
-  [[nodiscard]] double accelerate(std::span<const std::size_t> contacts);
+  void list_bodies(std::span<const std::size_t> contacts);
+  void take_step(std::size_t i);
   [[nodiscard]] Twist<Dim> relative_velocity(const Contact& contact) const;
   [[nodiscard]] FrictionVector<Dim> slip(const Contact& contact, const Twist<Dim>& velocity) const;
   void push(const Contact& contact, const Impulse& change, bool only_moving = false);
@@ -100,9 +102,11 @@ class ContactSweeps {
 
   std::vector<Body> bodies_;
   std::vector<Contact> contacts_;
-  std::vector<Course> courses_;  ///< of the contacts
+  std::vector<std::size_t> swept_bodies_;  ///< of the contacts that run_accelerated() sweeps over
+  SweepAcceleration acceleration_;
+  std::vector<SweepAcceleration::Leader<kFriction + 1>> contact_courses_;
+  std::vector<SweepAcceleration::Follower<kVelocity>> body_courses_;
   std::vector<JointRow> joints_;
-  double last_change_ = 0.0;  ///< |change of impulses|^2 of the pair of sweeps before the last one
   StepBlock<Dim> block_;
 };
 

@@ -53,6 +53,16 @@ inline FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<
   return rows;
 }
 
+template <int Dim>
+FrictionRows<Dim> no_slip(const FrictionVector<Dim>& w, double s) {
+  FrictionRows<Dim> rows;
+  rows.value = w;
+  rows.d_w = FrictionRows<Dim>::Square::Identity();
+  rows.slip_value = s;
+  rows.slip_d_s = 1;
+  return rows;
+}
+
 /// The projection smoothed. Outside the ball of radius R it shortens d by max(1, |d| / R), the root of
 /// max(1, X) with X = |d|^2 / R^2; here the maximum is (1 + X + sqrt((1 - X)^2 + 4 e^2)) / 2 with e = tau /
 /// R, and R = mu (p + sqrt(p^2 + 4 tau^2)) / 2 is positive whatever p is. Differentiable everywhere, and the
@@ -102,6 +112,7 @@ FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const 
                                 double s, double smoothing) {
   const FrictionVector<Dim> carried = active.cwiseProduct(y);
   FrictionRows<Dim> rows = form == FrictionForm::fritz_john ? fritz_john<Dim>(mu, carried, w, p, s)
+                           : form == FrictionForm::no_slip  ? no_slip<Dim>(w, s)
                            : smoothing > 0 ? smoothed_projection<Dim>(mu, rho, smoothing, carried, w, p, s)
                                            : projection<Dim>(mu, rho, carried, w, p, s);
   for (int i = 0; i < FrictionRows<Dim>::n; ++i) {

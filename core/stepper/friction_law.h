@@ -4,7 +4,7 @@
 
 namespace touchstone {
 
-/// How the friction rows are written for the solver. Both have the same solutions.
+/// How the friction rows are written for the solver. The first two have the same solutions.
 enum class FrictionForm {
   /// Eqs. 10-11 as printed: mu p_n w + y sigma = 0, 0 <= sigma _|_ (mu p_n)^2 - |y|^2 >= 0. Singular at p_n =
   /// 0 and where
@@ -13,6 +13,8 @@ enum class FrictionForm {
   /// y = proj_{|.| <= mu p_n}(y - rho w), sigma = |w|: the same maximum dissipation as a fixed point; regular
   /// there.
   projection,
+  /// w: what is 0 where the contact sticks. For methods that have the law in a form of their own.
+  no_slip,
 };
 
 /// The friction rows of one contact and their derivatives in scaled variables: y = E^-1 p_f / (m V), w = E

@@ -66,6 +66,8 @@ bool ReducedSystem::factor_sparse() {
   return sparse_lu_.info() == Eigen::Success;
 }
 
+double ReducedSystem::determinant_sign() { return dense_ ? 0.0 : sparse_lu_.signDeterminant(); }
+
 void ReducedSystem::solve(Eigen::VectorXd& x) {
   if (dense_) {
     lu_.solve(x.data());

@@ -31,6 +31,8 @@ class ReducedSystem {
   void add_to_diagonal(Eigen::Index first, double value);
   /// False if it is singular to working precision.
   [[nodiscard]] bool factor();
+  /// Sign of the determinant by the last factors, 0 if it is not known: of a dense system.
+  [[nodiscard]] double determinant_sign();
   /// x <- A^-1 x with the last factors; x has at least as many entries as the system.
   void solve(Eigen::VectorXd& x);
 

@@ -151,10 +151,10 @@ void StepBodies<Dim>::differentiate_body(int body, BodyAtEnd<Dim>& end) const {
 
 template <int Dim>
 Pose<Dim> StepBodies<Dim>::pose(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const {
-  BodyAtEnd<Dim> end;
-  start_body(body, origin, end);
-  move_body(body, origin, z, end);
-  return end.pose;
+  const auto index = static_cast<std::size_t>(body);
+  if (is_fixed(index)) return {position(body, origin, z), start_[index].pose.rotation};
+  const Angular<Dim> omega = z.template segment<kAngular>(kVelocity * place_[index] + Dim);
+  return {position(body, origin, z), turned(index, omega).rotation};
 }
 
 template <int Dim>

@@ -168,7 +168,8 @@ TYPED_TEST(StepProblemTest, JacobianMatchesCentralDifferences) {
   Fixture<TypeParam::dim> fixture;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const FrictionForm form : {FrictionForm::fritz_john, FrictionForm::projection}) {
+  for (const FrictionForm form :
+       {FrictionForm::fritz_john, FrictionForm::projection, FrictionForm::no_slip}) {
     for (const GapFunction gap : {GapFunction::workspace, GapFunction::distance}) {
       fixture.problem.set_form(form);
       fixture.problem.set_gap(gap);
