@@ -32,7 +32,7 @@ using namespace touchstone;
 constexpr double kStep = 0.01;           // [s]
 constexpr int kSteps = 20;               // as long as the default horizon of spheres_in_box
 constexpr int kLayers = 4;               // of the tray
-constexpr int kFirstOfFit = 30;          // spheres; below, a step is too short to be timed
+constexpr int kFirstOfFit = 30;          // spheres; below, floor and walls have most of the contacts
 constexpr long kBytesOfKilobyte = 1024;  // ru_maxrss is in KiB
 
 /// What a process tells of its n: plain data, for it goes through a pipe.

@@ -12,7 +12,10 @@ namespace touchstone {
 
 namespace {
 
-constexpr std::size_t kMany = 60;        ///< contacts above which rounds of sweeps come first
+/// Contacts above which rounds of sweeps come first: of smooth bodies, and of others, whose faces and edges
+/// have to be found.
+constexpr std::size_t kMany = 12;
+constexpr std::size_t kManyOfAnyBodies = 60;
 constexpr double kRelaxed = 0.5;         ///< of the tolerance, that they are asked for
 constexpr double kNear = 1e-3;           ///< residual after them from which Newton's method goes on
 constexpr int kFullSteps = 15;           ///< tried before anything else
@@ -48,11 +51,12 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
     iterations += report.iterations;
     return report;
   };
-  const bool is_large = problem.contacts().size() > kMany && problem.joints().empty();
-  if (is_large) {
+  const std::size_t contacts = problem.contacts().size();
+  const bool is_simple = contacts > kMany && InteriorPath<Dim>::applies_to(problem);
+  if (is_simple || (contacts > kManyOfAnyBodies && problem.joints().empty())) {
     SolveReport report = attempt([&] { return approach(problem, z); });
     // What rounding explains is one step of Newton's method away, if any.
-    if (!is_acceptable(report) && InteriorPath<Dim>::applies_to(problem)) {
+    if (!is_acceptable(report) && is_simple) {
       bind(problem);
       report = attempt([&] { return interior_search(z); });
       if (is_acceptable(report)) report.status = SolveStatus::solved;
