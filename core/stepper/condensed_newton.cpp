@@ -16,6 +16,8 @@ namespace {
 /// have to be found.
 constexpr std::size_t kMany = 12;
 constexpr std::size_t kManyOfAnyBodies = 60;
+/// Contacts of the largest problem of which an interior path is tried: some tenths of a second a system.
+constexpr std::size_t kLargestInterior = 2000;
 constexpr double kRelaxed = 0.5;         ///< of the tolerance, that they are asked for
 constexpr double kNear = 1e-3;           ///< residual after them from which Newton's method goes on
 constexpr int kFullSteps = 15;           ///< tried before anything else
@@ -56,7 +58,7 @@ SolveReport CondensedNewton<Dim>::solve(StepProblem<Dim>& problem, Eigen::Vector
   if (is_simple || (contacts > kManyOfAnyBodies && problem.joints().empty())) {
     SolveReport report = attempt([&] { return approach(problem, z); });
     // What rounding explains is one step of Newton's method away, if any.
-    if (!is_acceptable(report) && is_simple) {
+    if (!is_acceptable(report) && is_simple && contacts <= kLargestInterior) {
       bind(problem);
       report = attempt([&] { return interior_search(z); });
       if (is_acceptable(report)) report.status = SolveStatus::solved;
