@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <ranges>
 
 namespace touchstone {
 
@@ -70,7 +69,8 @@ int ContactSweeps<Dim>::run_accelerated(std::span<const std::size_t> contacts, i
       contacts_[i].before = contacts_[i].impulse();
       sweep(contacts_[i]);
     }
-    for (const std::size_t i : std::views::reverse(contacts)) {
+    for (auto at = contacts.rbegin(); at != contacts.rend(); ++at) {
+      const std::size_t i = *at;
       sweep(contacts_[i]);
       const Impulse change = contacts_[i].impulse() - contacts_[i].before;
       contact_courses_[i].record(acceleration_, change.template cast<float>());
