@@ -1,11 +1,10 @@
 #include "core/stepper/condensed_system.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/stepper/make_room.h"
+#include "core/stepper/momentum_matrices.h"
 
 namespace touchstone {
 
@@ -111,14 +110,7 @@ double CondensedSystem<Dim>::hold() const {
 template <int Dim>
 bool CondensedSystem<Dim>::factor(double regularisation) {
   reduced_.start(reduced_size_);
-  std::array<Eigen::Index, kVelocity> unknown;
-  std::array<Eigen::Index, kVelocity> place;
-  std::iota(unknown.begin(), unknown.end(), Eigen::Index{0});
-  for (int b = 0; b < problem_->moving_bodies(); ++b) {
-    std::iota(place.begin(), place.end(), Eigen::Index{kVelocity} * b);
-    body_matrix_ = problem_->momentum_matrix(b);
-    reduced_.add(unknown, place, body_matrix_);
-  }
+  add_momentum_matrices(*problem_, reduced_);
   const auto add = [this](const CondensedPart<Dim>& part) {
     reduced_.add(part.kept, part.place, part.block.j);
   };

@@ -76,7 +76,6 @@ class CondensedSystem {
   Eigen::VectorXd momentum_;  ///< rows of the bodies
   Eigen::VectorXd solution_;  ///< of the reduced system
   Eigen::VectorXd step_;      ///< in z
-  Eigen::MatrixXd body_matrix_;
   int evaluations_ = 0;
   int factorisations_ = 0;
 };

@@ -1,9 +1,10 @@
 #include "core/stepper/interior_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
+
+#include "core/stepper/momentum_matrices.h"
 
 namespace touchstone {
 
@@ -148,14 +149,7 @@ template <int Dim>
 bool InteriorPath<Dim>::linearise() {
   ++factorisations_;
   system_.start(rows_.size());
-  std::array<Eigen::Index, kVelocity> unknown;
-  std::array<Eigen::Index, kVelocity> place;
-  std::iota(unknown.begin(), unknown.end(), Eigen::Index{0});
-  for (int b = 0; b < problem_->moving_bodies(); ++b) {
-    std::iota(place.begin(), place.end(), Eigen::Index{kVelocity} * b);
-    body_matrix_ = problem_->momentum_matrix(b);
-    system_.add(unknown, place, body_matrix_);
-  }
+  add_momentum_matrices(*problem_, system_);
   for (std::size_t i = 0; i < count_; ++i)
     system_.add(contacts_[i].columns(), contacts_[i].places(), contacts_[i].matrix());
   return system_.factor();

@@ -80,7 +80,6 @@ class InteriorPath {
   std::vector<Contact> contacts_;
   std::size_t count_ = 0;  ///< of them in use
   ReducedSystem system_;
-  Eigen::MatrixXd body_matrix_;
   Eigen::VectorXd rows_;  ///< of momentum
   Eigen::VectorXd right_side_, change_;
   Point point_, path_, kept_;

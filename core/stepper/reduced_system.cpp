@@ -15,7 +15,7 @@ void ReducedSystem::start(Eigen::Index size) {
 }
 
 void ReducedSystem::add(std::span<const Eigen::Index> unknown, std::span<const Eigen::Index> place,
-                        const Eigen::MatrixXd& block) {
+                        const Eigen::Ref<const Eigen::MatrixXd>& block) {
   const std::size_t n = place.size();
   if (dense_) {
     auto matrix = lu_.matrix(size_);

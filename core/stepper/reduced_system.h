@@ -26,7 +26,7 @@ class ReducedSystem {
   [[nodiscard]] static bool is_dense(Eigen::Index size) { return size <= dense_limit; }
   /// Adds block(unknown[r], unknown[c]) at (place[r], place[c]).
   void add(std::span<const Eigen::Index> unknown, std::span<const Eigen::Index> place,
-           const Eigen::MatrixXd& block);
+           const Eigen::Ref<const Eigen::MatrixXd>& block);
   /// Adds `value` to the diagonal from entry `first` on.
   void add_to_diagonal(Eigen::Index first, double value);
   /// False if it is singular to working precision.
