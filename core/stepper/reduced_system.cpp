@@ -43,6 +43,7 @@ void ReducedSystem::add_to_diagonal(Eigen::Index first, double value) {
 
 bool ReducedSystem::factor() {
   constexpr double kSingular = 1e-11;
+  determinant_sign_ = 0;
   return dense_ ? lu_.factor(kSingular) : factor_sparse();
 }
 
@@ -63,10 +64,10 @@ bool ReducedSystem::factor_sparse() {
     sparse_lu_.analyzePattern(matrix_);
   }
   sparse_lu_.factorize(matrix_);
-  return sparse_lu_.info() == Eigen::Success;
+  if (sparse_lu_.info() != Eigen::Success) return false;
+  determinant_sign_ = sparse_lu_.signDeterminant();
+  return true;
 }
-
-double ReducedSystem::determinant_sign() { return dense_ ? 0.0 : sparse_lu_.signDeterminant(); }
 
 void ReducedSystem::solve(Eigen::VectorXd& x) {
   if (dense_) {

@@ -31,8 +31,8 @@ class ReducedSystem {
   void add_to_diagonal(Eigen::Index first, double value);
   /// False if it is singular to working precision.
   [[nodiscard]] bool factor();
-  /// Sign of the determinant by the last factors, 0 if it is not known: of a dense system.
-  [[nodiscard]] double determinant_sign();
+  /// Sign of the determinant by the last factors, 0 if it is not known: of a dense system or a singular one.
+  [[nodiscard]] double determinant_sign() const { return determinant_sign_; }
   /// x <- A^-1 x with the last factors; x has at least as many entries as the system.
   void solve(Eigen::VectorXd& x);
 
@@ -42,6 +42,7 @@ class ReducedSystem {
 
   Eigen::Index size_ = 0;
   bool dense_ = true;
+  double determinant_sign_ = 0.0;
   DenseLu lu_;
   std::vector<Eigen::Triplet<double, int>> entries_;
   Eigen::SparseMatrix<double> matrix_;
