@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "core/certificate/certificate.h"
 #include "core/stepper/implicit_stepper.h"
 #include "core/stepper/interior_path.h"
+#include "experiments/harness/judge.h"
+#include "experiments/harness/ledger.h"
 #include "experiments/scenarios/spheres_in_box.h"
 
 namespace touchstone {
@@ -24,38 +27,12 @@ SpheresInBox heap() {
   return box;
 }
 
-double kinetic_energy(const Scene<3>& scene, std::span<const BodyState<3>> state) {
-  double sum = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    if (scene.bodies[i].fixed) continue;
-    const Vector<3> omega = state[i].velocity.tail<3>();
-    sum += 0.5 * scene.bodies[i].mass * state[i].velocity.head<3>().squaredNorm() +
-           0.5 * omega.dot(world_inertia(scene.bodies[i].inertia, state[i].pose.rotation) * omega);
-  }
-  return sum;
-}
-
-double energy(const Scene<3>& scene, std::span<const BodyState<3>> state) {
-  double sum = kinetic_energy(scene, state);
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    if (!scene.bodies[i].fixed) sum -= scene.bodies[i].mass * scene.gravity.dot(state[i].pose.position);
-  }
-  return sum;
-}
-
-Vector<3> velocity_at(const BodyState<3>& state, const Vector<3>& point) {
-  return point_velocity<3>(state.velocity, Vector<3>(point - state.pose.position));
-}
-
 /// What normal impulses of contacts whose bodies part put in [J]: on the way from one end of a step to the
 /// next the normal turns, and a gap that stays closed is one that opens along the last normal.
 double work_of_parting(std::span<const BodyState<3>> state, std::span<const ContactImpulse<3>> contacts) {
   double sum = 0;
-  for (const ContactImpulse<3>& c : contacts) {
-    const Vector<3> relative = velocity_at(state[static_cast<std::size_t>(c.body_a)], c.point_a) -
-                               velocity_at(state[static_cast<std::size_t>(c.body_b)], c.point_b);
-    sum += c.normal_impulse * std::max(0.0, c.normal.dot(relative));
-  }
+  for (const ContactImpulse<3>& c : contacts)
+    sum += c.normal_impulse * std::max(0.0, relative_motion(c, state, state).normal);
   return sum;
 }
 
@@ -73,9 +50,11 @@ Vector<3> support(const Scene<3>& scene, std::span<const ContactImpulse<3>> cont
 TEST(HeapAtRest, EveryStepIsSolvedUntilTheSpheresRest) {
   const Scene<3> scene = spheres_in_box_scene(heap());
   const certificate::Checker<3> checker(scene);
+  const Judge<3> judge(scene);
   ImplicitStepper<3> stepper(scene, {});
   std::vector<BodyState<3>> before(stepper.state().begin(), stepper.state().end());
-  const double start = energy(scene, before);
+  Energy energy = judge.energy(before);
+  const double start = energy.total();
   double fall = 0;
   double sway = 0;
   for (int k = 1; k <= 100; ++k) {
@@ -84,10 +63,11 @@ TEST(HeapAtRest, EveryStepIsSolvedUntilTheSpheresRest) {
     const certificate::Report report = checker.check(step, certificate::Contacts::all);
     EXPECT_TRUE(report.holds_but_for_rounding(kCertified))
         << "step " << k << ": " << checker.describe(report, step);
-    const double gain = energy(scene, stepper.state()) - energy(scene, before);
-    EXPECT_LE(gain, work_of_parting(stepper.state(), stepper.contacts()) + 1e-12 * std::abs(start))
+    const Energy last = std::exchange(energy, judge.energy(stepper.state()));
+    EXPECT_LE(energy.total() - last.total(),
+              work_of_parting(stepper.state(), stepper.contacts()) + 1e-12 * std::abs(start))
         << "step " << k;
-    fall = std::max(fall, kinetic_energy(scene, stepper.state()));
+    fall = std::max(fall, energy.kinetic);
     sway = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       sway += scene.bodies[i].fixed ? 0.0
@@ -95,7 +75,7 @@ TEST(HeapAtRest, EveryStepIsSolvedUntilTheSpheresRest) {
                                           (stepper.state()[i].velocity - before[i].velocity).head<3>().norm();
     before.assign(stepper.state().begin(), stepper.state().end());
   }
-  EXPECT_LE(kinetic_energy(scene, before), 1e-3 * fall);
+  EXPECT_LE(energy.kinetic, 1e-3 * fall);
   // What momentum does not take the box carries, and at rest that is all but nothing.
   const double weight = heap().spheres * heap().mass * heap().gravity * kStep;
   EXPECT_LE((support(scene, stepper.contacts()) - Vector<3>(0, 0, weight)).norm(), sway + 1e-10 * weight);
