@@ -229,24 +229,6 @@ bool StepProblem<Dim>::is_spurious(std::size_t i) const {
 }
 
 template <int Dim>
-ContactWrenches<Dim> StepProblem<Dim>::unit_wrenches(std::size_t i, std::size_t k) const {
-  constexpr int kAngular = Dimension<Dim>::angular;
-  constexpr int kFriction = Dimension<Dim>::friction;
-  const ContactState<Dim>& state = states_[i];
-  const double unit = (k == 0 ? 1 : -1) * prepared_[i].mass * row_options_.scale.velocity;
-  ContactWrenches<Dim> wrenches = ContactWrenches<Dim>::Zero();
-  const auto set = [&](int column, const Vector<Dim>& force) {
-    wrenches.template block<Dim, 1>(0, column) = force;
-    wrenches.template block<kAngular, 1>(Dim, column) = lever(state.side[k].arm).transpose() * force;
-  };
-  for (int t = 0; t < Dim - 1; ++t) set(t, unit * prepared_[i].semi_axes[t] * state.frame.tangents.col(t));
-  if constexpr (Dim == 3)
-    wrenches.template block<3, 1>(3, 2) = unit * prepared_[i].semi_axes[2] * state.frame.normal;
-  set(kFriction, unit * state.frame.normal);
-  return wrenches;
-}
-
-template <int Dim>
 void StepProblem<Dim>::joint_block(int i, const Eigen::VectorXd& z, bool derivatives,
                                    StepBlock<Dim>& block) const {
   const JointRows<Dim>& joint = joints_[static_cast<std::size_t>(i)];

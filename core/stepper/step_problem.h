@@ -39,10 +39,6 @@ template <int Dim>
 using FindClosest = ClosestPoints<Dim> (*)(const ConvexSurface<Dim>&, const Pose<Dim>&,
                                            const ConvexSurface<Dim>&, const Pose<Dim>&);
 
-/// Wrenches of a contact's impulses on one body: a column each for y_t (y_o, y_r) and p.
-template <int Dim>
-using ContactWrenches = Eigen::Matrix<double, Dimension<Dim>::velocity, Dimension<Dim>::friction + 1>;
-
 /// One step of the geometrically implicit time-stepper as a mixed complementarity problem: Eqs. 10-11 of
 /// Chakraborty, Berard, Akella and Trinkle (2007), for any number of bodies and contacts.
 ///
@@ -113,9 +109,6 @@ class StepProblem final : public MixedComplementarityProblem {
   static constexpr double kSpuriousResidual = 2.0;
   /// Contact i where it was evaluated last.
   [[nodiscard]] const ContactState<Dim>& state(std::size_t i) const { return states_[i]; }
-  /// On body k (0: body 1, 1: body 2) of contact i per unit of (y, p) where it was evaluated last [N s, N m
-  /// s].
-  [[nodiscard]] ContactWrenches<Dim> unit_wrenches(std::size_t i, std::size_t k) const;
   /// Rows of joint i of the scene, one of this island, at z.
   void joint_block(int i, const Eigen::VectorXd& z, bool derivatives, StepBlock<Dim>& block) const;
 

@@ -18,10 +18,16 @@ constexpr Index at(std::size_t contact, Index row) { return 3 * static_cast<Inde
 
 /// Wrench on body k of contact i per unit of (n, t, o), in units of the first contact's m V.
 Eigen::Matrix<double, 6, 3> wrenches(const StepProblem<3>& step, std::size_t i, std::size_t k) {
-  const ContactWrenches<3> unit = step.unit_wrenches(i, k) * (step.prepared(0).mass / step.prepared(i).mass);
-  Eigen::Matrix<double, 6, 3> ordered;
-  ordered << unit.col(3), unit.col(0), unit.col(1);
-  return ordered;
+  const PreparedContact<3>& contact = step.prepared(i);
+  const ContactState<3>& state = step.state(i);
+  const double unit = (k == 0 ? 1 : -1) * contact.mass * step.scale().velocity;  // [N s] per unit of z
+  const auto column = [&](double size, const Vector<3>& direction) {
+    return wrench<3>(size * direction, state.side[k].arm);
+  };
+  Eigen::Matrix<double, 6, 3> all;
+  all << column(unit, state.frame.normal), column(unit * contact.semi_axes[0], state.frame.tangents.col(0)),
+      column(unit * contact.semi_axes[1], state.frame.tangents.col(1));
+  return all * (step.prepared(0).mass / contact.mass);
 }
 
 MotionMatrix<3> inverse_mass(const StepProblem<3>& step, int place) {

@@ -165,13 +165,20 @@ double drift_at(const StepProblem<Dim>& problem, const std::vector<std::size_t>&
 template <int Dim>
 void balance(const StepProblem<Dim>& problem, const Eigen::VectorXd& self_stress, Wedge& wedge) {
   std::vector<Twist<Dim>> sum(static_cast<std::size_t>(problem.moving_bodies()), Twist<Dim>::Zero());
+  StepBlock<Dim> rows;
   double magnitude = 0;
   for (const std::size_t i : wedge.contacts) {
     const Impulse<Dim> impulse = impulse_of(problem, i, self_stress);
+    problem.contact_block(i, true, rows);
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
       const int place = problem.places(i)[k];
       if (place < 0) continue;
-      const Twist<Dim> wrench = as_force<Dim>(problem.unit_wrenches(i, k) * impulse, problem.scale().length);
+      const Twist<Dim> momentum =
+          rows.j.template block<Dimension<Dim>::velocity, Dimension<Dim>::friction + 1>(rows.column[k],
+                                                                                        rows.at.friction) *
+          impulse;
+      const Twist<Dim> wrench =
+          as_force<Dim>(-momentum.cwiseQuotient(problem.momentum_scale(place)), problem.scale().length);
       sum[static_cast<std::size_t>(place)] += wrench;
       magnitude += wrench.norm();
     }
