@@ -6,8 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "core/contact/closest_multipliers.h"
-
 namespace touchstone {
 
 namespace {
@@ -278,57 +276,6 @@ JointImpulse<Dim> StepProblem<Dim>::joint_impulse(int i, const Eigen::VectorXd& 
   const auto wrenches = joint_wrenches(joint, joint_bodies(joint, z), row_options_.scale,
                                        z.segment(joint_column(i), joint_row_count(i)));
   return {i, wrenches[0], wrenches[1]};
-}
-
-template <int Dim>
-void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
-                                  Eigen::VectorXd& z) const {
-  const ContactPair<Dim>& pair = contacts_[i];
-  const ContactLayout& at = layout_.contact(i);
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const bool first = k == 0;
-    const Side<Dim>& side = first ? pair.side_1 : pair.side_2;
-    const Eigen::Index column = first ? at.point_1 : at.point_2;
-    const Vector<Dim>& relative = first ? a_1 : a_2;
-    if (side.kind == SideKind::plane) {
-      const PlaneAtStart<Dim>& plane = prepared_[i].plane[k];
-      const Pose<Dim> pose = bodies_.pose(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z);
-      const PlaneChart<Dim> chart = pose.rotation.matrix() * plane.basis;
-      z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
-    } else {
-      z.template segment<Dim>(column) = relative;
-    }
-  }
-}
-
-template <int Dim>
-void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
-  const ContactPair<Dim>& pair = contacts_[i];
-  const Vector<Dim>& origin = prepared_[i].origin;
-  const std::array<Pose<Dim>, 2> pose = {bodies_.pose(pair.body_1, origin, z),
-                                         bodies_.pose(pair.body_2, origin, z)};
-  const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
-  // The direction of t stays while it can, whatever the law's own does: friction in z is told in it.
-  prepared_[i].reference = usable_reference(closest.normal, prepared_[i].reference);
-  set_points(i, closest.a_1, closest.a_2, z);
-  set_multipliers(i, pose, closest, z);
-}
-
-template <int Dim>
-void StepProblem<Dim>::set_multipliers(std::size_t i, const std::array<Pose<Dim>, 2>& pose,
-                                       const ClosestPoints<Dim>& closest, Eigen::VectorXd& z) const {
-  const ContactPair<Dim>& pair = contacts_[i];
-  const ContactLayout& at = layout_.contact(i);
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const Side<Dim>& side = k == 0 ? pair.side_1 : pair.side_2;
-    if (side.kind != SideKind::intersection) continue;
-    const Vector<Dim> outward = k == 0 ? Vector<Dim>(-closest.normal) : closest.normal;
-    const Vector<Dim>& point = k == 0 ? closest.a_1 : closest.a_2;
-    double* const first = z.data() + (k == 0 ? at.multipliers_1 : at.multipliers_2);
-    closest_multipliers(*side.surface, pose[k].to_body(point),
-                        Vector<Dim>(pose[k].rotation.matrix().transpose() * outward),
-                        std::span(first, static_cast<std::size_t>(side.multipliers())));
-  }
 }
 
 template <int Dim>
