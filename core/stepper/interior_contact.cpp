@@ -1,6 +1,8 @@
 #include "core/stepper/interior_contact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace touchstone {
@@ -64,13 +66,11 @@ bool InteriorContact<Dim>::evaluate(const Unknowns& at, Eigen::VectorXd& z) {
     problem_->evaluate_state(i_, z);
     problem_->contact_block(i_, true, block_);
   }
-  columns_.clear();
-  places_.clear();
+  std::iota(columns_.begin(), columns_.end(), Eigen::Index{0});
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    for (int c = 0; c < kVelocity && block_.place[k] >= 0; ++c) {
-      columns_.push_back(static_cast<Eigen::Index>(columns_.size()));
-      places_.push_back(kVelocity * block_.place[k] + c);
-    }
+    if (block_.place[k] < 0) continue;
+    const auto first = places_.begin() + block_.column[k];
+    std::iota(first, first + kVelocity, Eigen::Index{kVelocity} * block_.place[k]);
   }
   if (!factor_points()) return false;
   eliminate_points();
@@ -156,14 +156,14 @@ double InteriorContact<Dim>::complementarity(const Unknowns& at, double floor) c
 }
 
 template <int Dim>
-const Eigen::MatrixXd& InteriorContact<Dim>::matrix() {
-  matrix_ = stiffness_;
-  matrix_.noalias() -= by_impulse_ * (answer_ * motion_);
-  return matrix_;
+auto InteriorContact<Dim>::matrix() const -> Block {
+  Block matrix = stiffness_;
+  matrix.noalias() -= by_impulse_ * (answer_ * motion_);
+  return matrix;
 }
 
 template <int Dim>
-Eigen::VectorXd InteriorContact<Dim>::begin_direction(const Unknowns& at, const Goal& goal) {
+auto InteriorContact<Dim>::begin_direction(const Unknowns& at, const Goal& goal) -> OfVelocities {
   moves_slack_ = !goal.tangent;
   const Rows slack = moves_slack_ ? slack_ : Rows::Zero();
   const Floors least = floors(at, goal.floor);
@@ -197,7 +197,7 @@ void InteriorContact<Dim>::respond(const Eigen::VectorXd& velocity) {
 }
 
 template <int Dim>
-Eigen::VectorXd InteriorContact<Dim>::momentum_change(const Eigen::VectorXd& velocity) const {
+auto InteriorContact<Dim>::momentum_change(const Eigen::VectorXd& velocity) const -> OfVelocities {
   return stiffness_ * gather(velocity) + by_impulse_ * impulse_;
 }
 
@@ -253,8 +253,8 @@ double InteriorContact<Dim>::largest(const Unknowns& at, const Unknowns& step) c
 }
 
 template <int Dim>
-Eigen::VectorXd InteriorContact<Dim>::gather(const Eigen::VectorXd& velocity) const {
-  Eigen::VectorXd own(block_.own);
+auto InteriorContact<Dim>::gather(const Eigen::VectorXd& velocity) const -> OfVelocities {
+  OfVelocities own(block_.own);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     if (block_.place[k] >= 0)
       own.template segment<kVelocity>(block_.column[k]) =

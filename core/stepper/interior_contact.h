@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <array>
+#include <span>
 
 #include "core/complementarity/dense_lu.h"
 #include "core/stepper/friction_cone.h"
@@ -43,6 +44,10 @@ class InteriorContact {
   using Unknowns = InteriorUnknowns<Dim>;
   static constexpr int kVelocity = Dimension<Dim>::velocity;
   static constexpr int kFriction = Dimension<Dim>::friction;
+  /// A number, or a row and column, for each velocity of the contact's moving bodies: one or two. There are
+  /// no more unknowns of the closest points, nor impulses.
+  using OfVelocities = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * kVelocity, 1>;
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * kVelocity, 2 * kVelocity>;
 
   /// Least products that are of use: a contact that sticks or closes has a slip or gap of `floor` V at least,
   /// and one that slips is off its greatest friction by this part of it. Rounding does not tell what is less.
@@ -77,17 +82,18 @@ class InteriorContact {
   [[nodiscard]] Twist<Dim> wrench(std::size_t k) const {
     return wrench_.template segment<kVelocity>(block_.column[k]);
   }
-  /// What it adds to the matrix: the leading block for the velocities listed, with their places.
-  [[nodiscard]] const Eigen::MatrixXd& matrix();
-  [[nodiscard]] const std::vector<Eigen::Index>& columns() const { return columns_; }
-  [[nodiscard]] const std::vector<Eigen::Index>& places() const { return places_; }
+  /// What it adds to the matrix: a row and column for each of its bodies' velocities, numbered by columns(),
+  /// with their places.
+  [[nodiscard]] Block matrix() const;
+  [[nodiscard]] std::span<const Eigen::Index> columns() const { return {columns_.data(), velocities()}; }
+  [[nodiscard]] std::span<const Eigen::Index> places() const { return {places_.data(), velocities()}; }
 
   /// Begins a direction. @return  what its impulses for no motion add to the momentum rows of the bodies
-  [[nodiscard]] Eigen::VectorXd begin_direction(const Unknowns& at, const Goal& goal);
+  [[nodiscard]] OfVelocities begin_direction(const Unknowns& at, const Goal& goal);
   /// Adds a change of velocities (of all bodies) to the direction.
   void respond(const Eigen::VectorXd& velocity);
   /// What the direction adds to the momentum rows: by velocities in all, and by impulses.
-  [[nodiscard]] Eigen::VectorXd momentum_change(const Eigen::VectorXd& velocity) const;
+  [[nodiscard]] OfVelocities momentum_change(const Eigen::VectorXd& velocity) const;
   /// The direction, for the velocities it was given in all.
   [[nodiscard]] Unknowns end_direction(const Eigen::VectorXd& velocity);
   /// Moves closest points with the velocities; with what their rows are off if `residual`.
@@ -110,7 +116,8 @@ class InteriorContact {
   [[nodiscard]] bool factor_points();
   [[nodiscard]] double points_residual() const;
   void set_answer(const Unknowns& at);
-  [[nodiscard]] Eigen::VectorXd gather(const Eigen::VectorXd& velocity) const;
+  [[nodiscard]] OfVelocities gather(const Eigen::VectorXd& velocity) const;
+  [[nodiscard]] std::size_t velocities() const { return static_cast<std::size_t>(block_.own); }
 
   StepProblem<Dim>* problem_ = nullptr;
   std::size_t i_ = 0;
@@ -118,13 +125,13 @@ class InteriorContact {
   double gap_weight_ = 1.0;  ///< from psi / L to psi / (h V)
   StepBlock<Dim> block_;
   DenseLu lu_;
-  std::vector<Eigen::Index> columns_, places_;
-  Eigen::MatrixXd point_response_;  ///< - d points / d nu'
-  Eigen::VectorXd point_offset_;    ///< by which points are off
-  Eigen::MatrixXd stiffness_;       ///< of the momentum rows by nu' while impulses stay
-  Eigen::MatrixXd by_impulse_;      ///< of the momentum rows by (y, p)
-  Eigen::MatrixXd motion_;          ///< of (w, gap) by nu'
-  Eigen::VectorXd wrench_;
+  std::array<Eigen::Index, 2 * kVelocity> columns_{}, places_{};
+  Block point_response_;       ///< - d points / d nu'
+  OfVelocities point_offset_;  ///< by which points are off
+  Block stiffness_;            ///< of the momentum rows by nu' while impulses stay
+  Block by_impulse_;           ///< of the momentum rows by (y, p)
+  Block motion_;               ///< of (w, gap) by nu'
+  OfVelocities wrench_;
   Rows slack_ = Rows::Zero();  ///< (w, gap) of the poses less those of the unknowns
   ConeScaling<kRows> scaling_;
   Element scaled_ = Element::Zero();  ///< W (sigma, w)
@@ -135,7 +142,6 @@ class InteriorContact {
   Element centred_ = Element::Zero();               ///< W (W (sigma, w) \ right side)
   Unknowns direction_;                              ///< the last one
   bool moves_slack_ = true;
-  Eigen::MatrixXd matrix_;
 };
 
 }  // namespace touchstone

@@ -158,7 +158,7 @@ bool InteriorPath<Dim>::linearise() {
 /// The direction at the point, refined in what its own impulses leave of the momentum rows.
 template <int Dim>
 void InteriorPath<Dim>::find_direction(const Goal& goal, Step& step) {
-  const auto add_at = [this](const Contact& contact, const Eigen::VectorXd& own) {
+  const auto add_at = [this](const Contact& contact, const typename Contact::OfVelocities& own) {
     for (std::size_t r = 0; r < contact.places().size(); ++r)
       right_side_[contact.places()[r]] -= own[static_cast<Eigen::Index>(r)];
   };

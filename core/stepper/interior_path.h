@@ -81,7 +81,7 @@ class InteriorPath {
   std::size_t count_ = 0;  ///< of them in use
   ReducedSystem system_;
   Eigen::VectorXd rows_;  ///< of momentum
-  Eigen::VectorXd right_side_, change_;
+  Eigen::VectorXd right_side_;
   Point point_, path_, kept_;
   Step step_, tangent_, along_;
   bool centred_ = false;  ///< path_ is on the path
