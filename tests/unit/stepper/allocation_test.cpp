@@ -1,7 +1,11 @@
 // A step allocates nothing once the first one has been made: every allocation of this program is counted.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "core/stepper/implicit_stepper.h"
+#include "core/stepper/interior_path.h"
 #include "tests/support/allocation_counter.h"
 
 namespace touchstone {
@@ -45,6 +49,57 @@ TEST(Allocation, APlanarStepMakesNone) {
     // Extrapolation starts most steps of elimination at their solutions.
     EXPECT_GT(iterations, solver == Solver::condensed ? 5 : 20);
   }
+}
+
+/// A ball on four that touch each other on the ground: more contacts than the motion needs.
+Scene<3> pyramid() {
+  Scene<3> scene;
+  scene.gravity = {0, 0, -9.81};
+  scene.contact_law.mu = 0.5;
+  const double top = 1 + std::sqrt(2.0);
+  for (const Vector<3>& place : {Vector<3>(-1, -1, 1), Vector<3>(1, -1, 1), Vector<3>(-1, 1, 1),
+                                 Vector<3>(1, 1, 1), Vector<3>(0, 0, top)}) {
+    Body<3>& ball = scene.bodies.emplace_back();
+    ball.name = "ball " + std::to_string(scene.bodies.size());
+    ball.inertia = 0.4 * Inertia<3>::Identity();
+    ball.pose.position = place;
+    ball.shape.geometry = Sphere<3>{1.0};
+  }
+  Body<3>& ground = scene.bodies.emplace_back();
+  ground.name = "ground";
+  ground.fixed = true;
+  ground.shape.geometry = HalfSpace<3>{};
+  return scene;
+}
+
+// What is factorised here is small enough to be dense; the factors of a sparse system, of more than ten
+// bodies, are Eigen's, which allocates them anew for each.
+TEST(Allocation, AnInteriorPathMakesNoneOnceItHasBeenDown) {
+  if (!kAllocationsAreCounted) GTEST_SKIP() << "the sanitizer owns malloc";
+  constexpr double kStep = 0.01;
+  const Scene<3> scene = pyramid();
+  ImplicitStepper<3> stepper(scene, {});
+  ASSERT_EQ(stepper.step(kStep).status, StepStatus::solved);
+  ASSERT_EQ(stepper.problem().contacts().size(), 12U);
+  StepProblem<3> problem(scene);
+  problem.begin(stepper.state(), kStep);
+  problem.select(stepper.problem().bodies(), {}, stepper.problem().contacts());
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(problem.size());
+  problem.free_velocity(start);
+  for (std::size_t i = 0; i < problem.contacts().size(); ++i) problem.find_points(i, start);
+  InteriorPath<3> path;
+  Eigen::VectorXd z = start;
+  const auto go_down = [&] {
+    path.begin(problem, start, 1e-3);
+    ASSERT_TRUE(path.follow(1e-6));
+    ASSERT_TRUE(path.descend(1e-12));
+    path.write(z);
+  };
+  go_down();
+  const long before = allocations;
+  go_down();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(path.factorisations(), 10);
 }
 
 TEST(Allocation, FindingPairsMakesNoneOnceTheyWereMet) {
