@@ -81,8 +81,7 @@ auto EnergyLedger<Dim>::known(const ContactImpulse<Dim>& contact, std::span<cons
   // Also right for a method that puts both points in the middle of an overlap.
   const double gap =
       height(*surfaces_[a], on_a) + height(*surfaces_[b], state[b].pose.to_body(contact.point_a));
-  return {contact.body_a,
-          contact.body_b,
+  return {{contact.body_a, contact.body_b},
           features_at(*surfaces_[a], on_a),
           features_at(*surfaces_[b], on_b),
           on_a,
@@ -95,10 +94,10 @@ template <int Dim>
 auto EnergyLedger<Dim>::in_last_step(const Known& contact) const -> const Known* {
   const Known* nearest = nullptr;
   const auto distance = [&](const Known& other) { return (other.point - contact.point).norm(); };
-  for (const Known& other : last_) {
-    const bool same = other.body_a == contact.body_a && other.body_b == contact.body_b &&
-                      other.features_a == contact.features_a && other.features_b == contact.features_b;
-    if (same && (nearest == nullptr || distance(other) < distance(*nearest))) nearest = &other;
+  const auto [first, end] = std::equal_range(last_.begin(), last_.end(), contact, &in_order);
+  for (auto other = first; other != end; ++other) {
+    const bool same = other->features_a == contact.features_a && other->features_b == contact.features_b;
+    if (same && (nearest == nullptr || distance(*other) < distance(*nearest))) nearest = &*other;
   }
   return nearest;
 }
@@ -122,6 +121,7 @@ void EnergyLedger<Dim>::book(double h, std::span<const BodyState<Dim>> before,
     now_.push_back(std::move(now));
   }
   std::swap(last_, now_);
+  std::stable_sort(last_.begin(), last_.end(), &in_order);
   book_joints(before, after, joints);
   energy_ = judge_.energy(after);
   account_.applied_work = start_.potential - energy_.potential;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/method.h"
@@ -85,8 +86,7 @@ class EnergyLedger {
  private:
   /// A contact of the last step as the next one finds it.
   struct Known {
-    int body_a = 0;
-    int body_b = 0;
+    std::pair<int, int> bodies;  ///< a, b
     std::vector<int> features_a;
     std::vector<int> features_b;
     Vector<Dim> point =
@@ -97,6 +97,7 @@ class EnergyLedger {
 
   [[nodiscard]] Known known(const ContactImpulse<Dim>& contact, std::span<const BodyState<Dim>> state) const;
   [[nodiscard]] const Known* in_last_step(const Known& contact) const;
+  [[nodiscard]] static bool in_order(const Known& x, const Known& y) { return x.bodies < y.bodies; }
   void book_joints(std::span<const BodyState<Dim>> before, std::span<const BodyState<Dim>> after,
                    std::span<const JointImpulse<Dim>> joints);
 
@@ -106,7 +107,7 @@ class EnergyLedger {
   Energy start_;
   Energy energy_;
   EnergyAccount account_;
-  std::vector<Known> last_;
+  std::vector<Known> last_;  ///< in the order of their bodies
   std::vector<Known> now_;
 };
 
