@@ -26,7 +26,9 @@ using MakeMethod = std::unique_ptr<Method<Dim>> (*)(const Scene<Dim>& scene, con
 ///
 /// contacts() and joints() are the FINE run's, over both half steps: impulses of a pair of bodies that has
 /// one contact in each are added up, at the place and in the frame of the second. They do not account for the
-/// change of the combined velocities to rounding, hence Capabilities::contact_impulses is false.
+/// change of the combined velocities to rounding, hence Capabilities::contact_impulses is false. Impulses
+/// combined as velocities are would balance momentum, but at an impact they may pull, and what they lose
+/// there has no limit for h -> 0: energy is quadratic, and a combination of before and after is neither.
 template <int Dim>
 class Extrapolated final : public Method<Dim> {
  public:
