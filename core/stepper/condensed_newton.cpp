@@ -252,7 +252,8 @@ SolveReport CondensedNewton<Dim>::search(const Strategy& strategy, Eigen::Vector
     ++report.iterations;
     if (!advance(chord, report.iterations, z)) return ended(SolveStatus::stalled);
     report.history.push(system_.residual());
-    factors_are_good = !chord || system_.residual() <= kChordGain * before;
+    // Points that are followed leave their contacts' factors where the last trial was, off the other ones.
+    factors_are_good = !strategy.follows && (!chord || system_.residual() <= kChordGain * before);
   }
 }
 
