@@ -26,6 +26,8 @@ void CondensedContact<Dim>::bind(StepProblem<Dim>& problem, std::size_t i) {
   const int multipliers = pair.side_1.multipliers() + pair.side_2.multipliers();
   const int points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns() + multipliers;
   const auto count = static_cast<std::size_t>(points);
+  has_multipliers_ = multipliers > 0;
+  by_motion_ = false;
   active_.reserve(static_cast<std::size_t>(multipliers));
   eliminated_.reserve(count);
   response_.reserve(count * 2 * kVelocity);
@@ -98,6 +100,7 @@ void CondensedContact<Dim>::set_rows(const CondensedForm& form, const Eigen::Vec
   const auto replace = [&](Eigen::Index row, double value) {
     block.f[row] = value;
     if (!derivatives) return;
+    if (by_motion_) motions_.scale_row(row, 0.0);
     block.j.row(row).head(block.size).setZero();
     block.j(row, row) = 1;
   };
@@ -106,6 +109,7 @@ void CondensedContact<Dim>::set_rows(const CondensedForm& form, const Eigen::Vec
       const FischerBurmeisterTerm term(unknown, weight * block.f[row], form.smoothing);
       block.f[row] = term.value;
       if (!derivatives) return;
+      if (by_motion_) motions_.scale_row(row, weight * term.by_row);
       block.j.row(row).head(block.size) *= weight * term.by_row;
       block.j(row, row) += term.by_unknown;
     };
@@ -128,18 +132,48 @@ template <int Dim>
 void CondensedContact<Dim>::condense(const CondensedForm& form, double hold, const Eigen::VectorXd& z,
                                      Eigen::Index& reduced_size) {
   choose_rows(form, z);
+  by_motion_ = !has_multipliers_;
+  if (by_motion_) {
+    problem_->contact_block_by_motion(i_, part_.block, motions_);
+    list_points();
+    fill_eliminated();
+    regular_ = lu_.factor(kRegular);
+    by_motion_ = regular_;
+  }
+  if (by_motion_) {
+    set_rows(form, z, true);
+    add_hold(hold);
+    list_kept(reduced_size);
+    keeps_points_ = false;
+    find_response();
+    add_response();
+    return;
+  }
   problem_->contact_block(i_, true, part_.block);
   set_rows(form, z, true);
-  StepBlock<Dim>& block = part_.block;
-  if (hold > 0) {
-    for (Eigen::Index r = block.at.friction; r <= block.at.normal; ++r) block.j(r, r) += hold;
-  }
+  add_hold(hold);
   list_points();
   list_kept(reduced_size);
   factor_points(reduced_size);
   if (keeps_points_) return;
   find_response();
   subtract_response();
+}
+
+template <int Dim>
+void CondensedContact<Dim>::add_hold(double hold) {
+  StepBlock<Dim>& block = part_.block;
+  if (hold == 0) return;
+  for (Eigen::Index r = block.at.friction; r <= block.at.normal; ++r) block.j(r, r) += hold;
+}
+
+template <int Dim>
+void CondensedContact<Dim>::add_response() {
+  if (part_.block.own == kVelocity) {
+    motions_.template add_response<kVelocity>(response_.data());
+  } else {
+    motions_.template add_response<2 * kVelocity>(response_.data());
+  }
 }
 
 template <int Dim>
@@ -254,6 +288,12 @@ void CondensedContact<Dim>::add_right_side(Eigen::VectorXd& right_side) {
   const std::size_t e = eliminated_.size();
   for (std::size_t r = 0; r < e; ++r) offset_[static_cast<Eigen::Index>(r)] = block.f[eliminated_[r]];
   solve_points(offset_.data());
+  if (by_motion_) {
+    const typename MotionJacobian<Dim>::Rows effect = motions_.effect(offset_.data());
+    for (std::size_t m = 0; m < kept.size(); ++m)
+      right_side[part_.place[m]] += effect[static_cast<Eigen::Index>(m)];
+    return;
+  }
   for (std::size_t m = 0; m < kept.size(); ++m) {
     double sum = 0;
     for (std::size_t r = 0; r < e; ++r)

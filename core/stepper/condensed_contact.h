@@ -59,12 +59,14 @@ class CondensedContact {
 
   void choose_rows(const CondensedForm& form, const Eigen::VectorXd& z);
   void set_rows(const CondensedForm& form, const Eigen::VectorXd& z, bool derivatives);
+  void add_hold(double hold);
   void list_points();
   void list_kept(Eigen::Index& reduced_size);
   void fill_eliminated();
   void factor_points(Eigen::Index& reduced_size);
   void find_response();
   void subtract_response();
+  void add_response();
   void solve_points(double* x);
   [[nodiscard]] Eigen::Index column_in_z(Eigen::Index unknown) const;
 
@@ -77,6 +79,9 @@ class CondensedContact {
   bool loaded_ = false;                   ///< the impulse is among what is solved together
   bool regular_ = false;                  ///< the closest points follow from the poses
   bool keeps_points_ = false;             ///< they are among what is solved together
+  bool has_multipliers_ = false;
+  bool by_motion_ = false;                ///< condensed without columns of points: see MotionJacobian
+  MotionJacobian<Dim> motions_;           ///< if so
   std::vector<bool> active_;              ///< inequalities whose row stands
   std::vector<Eigen::Index> eliminated_;  ///< of the block's unknowns
   DenseLu lu_;                            ///< of the eliminated rows and unknowns

@@ -7,6 +7,9 @@
 /// The rows of Eqs. 10-11 that belong to one contact, and their derivatives.
 namespace touchstone {
 
+template <int Dim>
+class MotionJacobian;
+
 /// Which gap the normal complementarity is written with.
 enum class GapFunction {
   /// f(a_2), the value of body 1's inequality at body 2's closest point (Eq. 6). Only where body 1 is one
@@ -110,5 +113,14 @@ template <int Dim>
 void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared, const ContactLayout& at,
                   const ContactRowOptions& options, const ContactState<Dim>& state, Eigen::VectorXd& f,
                   Eigen::MatrixXd* jacobian);
+
+/// The same for a contact without multipliers, in the projection form of friction: rows to f, derivatives of
+/// the closest points' rows to the Jacobian, and those of all others (but sigma's) to `motions`, with what
+/// they are by velocities and impulses directly in the Jacobian. What is written to is zero on entry.
+template <int Dim>
+void contact_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                            const ContactLayout& at, const ContactRowOptions& options,
+                            const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
+                            MotionJacobian<Dim>& motions);
 
 }  // namespace touchstone
