@@ -26,7 +26,6 @@ void CondensedContact<Dim>::bind(StepProblem<Dim>& problem, std::size_t i) {
   const int multipliers = pair.side_1.multipliers() + pair.side_2.multipliers();
   const int points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns() + multipliers;
   const auto count = static_cast<std::size_t>(points);
-  has_multipliers_ = multipliers > 0;
   by_motion_ = false;
   active_.reserve(static_cast<std::size_t>(multipliers));
   eliminated_.reserve(count);
@@ -132,21 +131,18 @@ template <int Dim>
 void CondensedContact<Dim>::condense(const CondensedForm& form, double hold, const Eigen::VectorXd& z,
                                      Eigen::Index& reduced_size) {
   choose_rows(form, z);
-  by_motion_ = !has_multipliers_;
+  const ContactPair<Dim>& pair = problem_->contacts()[i_];
+  by_motion_ = PointElimination<Dim>::applies_to(pair);
   if (by_motion_) {
     problem_->contact_block_by_motion(i_, part_.block, motions_);
-    list_points();
-    fill_eliminated();
-    regular_ = lu_.factor(kRegular);
-    by_motion_ = regular_;
+    by_motion_ = points_.factor(pair, problem_->state(i_), problem_->scale().length, problem_->step_size());
   }
   if (by_motion_) {
     set_rows(form, z, true);
     add_hold(hold);
     list_kept(reduced_size);
     keeps_points_ = false;
-    find_response();
-    add_response();
+    add_motions();
     return;
   }
   problem_->contact_block(i_, true, part_.block);
@@ -168,11 +164,11 @@ void CondensedContact<Dim>::add_hold(double hold) {
 }
 
 template <int Dim>
-void CondensedContact<Dim>::add_response() {
+void CondensedContact<Dim>::add_motions() {
   if (part_.block.own == kVelocity) {
-    motions_.template add_response<kVelocity>(response_.data());
+    motions_.template add_motions<kVelocity>(points_.template motions<kVelocity>());
   } else {
-    motions_.template add_response<2 * kVelocity>(response_.data());
+    motions_.template add_motions<2 * kVelocity>(points_.template motions<2 * kVelocity>());
   }
 }
 
@@ -285,15 +281,16 @@ void CondensedContact<Dim>::add_right_side(Eigen::VectorXd& right_side) {
     if (kept[m] >= block.own) right_side[part_.place[m]] -= block.f[kept[m]];
   }
   if (keeps_points_) return;
-  const std::size_t e = eliminated_.size();
-  for (std::size_t r = 0; r < e; ++r) offset_[static_cast<Eigen::Index>(r)] = block.f[eliminated_[r]];
-  solve_points(offset_.data());
   if (by_motion_) {
-    const typename MotionJacobian<Dim>::Rows effect = motions_.effect(offset_.data());
+    rest_ = points_.motion_of(block.f.data() + block.own);
+    const typename MotionJacobian<Dim>::Rows effect = motions_.effect(rest_);
     for (std::size_t m = 0; m < kept.size(); ++m)
       right_side[part_.place[m]] += effect[static_cast<Eigen::Index>(m)];
     return;
   }
+  const std::size_t e = eliminated_.size();
+  for (std::size_t r = 0; r < e; ++r) offset_[static_cast<Eigen::Index>(r)] = block.f[eliminated_[r]];
+  solve_points(offset_.data());
   for (std::size_t m = 0; m < kept.size(); ++m) {
     double sum = 0;
     for (std::size_t r = 0; r < e; ++r)
@@ -309,6 +306,13 @@ void CondensedContact<Dim>::expand(const Eigen::VectorXd& solution, Eigen::Vecto
     if (part_.kept[m] >= block.own) step[column_in_z(part_.kept[m])] = solution[part_.place[m]];
   }
   if (keeps_points_) return;
+  if (by_motion_) {
+    std::array<double, 2 * kVelocity> velocities;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(block.own); ++c)
+      velocities[c] = solution[part_.place[c]];
+    points_.read_unknowns(-rest_, velocities.data(), step.data() + column_in_z(block.own));
+    return;
+  }
   for (std::size_t r = 0; r < eliminated_.size(); ++r) {
     const auto row = static_cast<Eigen::Index>(r);
     double change = -offset_[row];

@@ -108,7 +108,7 @@ void multiplier_rows(const PointRows<Dim>& c) {
       c.f[first + i] = -per_length * c.state.side[k].values[index];
       if (c.derivative != nullptr) {
         c.derivative->template relative<1>(first + i, k,
-                                            -per_length * c.state.side[k].gradients[index].transpose());
+                                           -per_length * c.state.side[k].gradients[index].transpose());
       }
     }
   }
@@ -172,14 +172,12 @@ void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prep
 }
 
 template <int Dim>
-void contact_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
-                            const ContactLayout& at, const ContactRowOptions& options,
-                            const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
-                            MotionJacobian<Dim>& motions) {
+void load_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                         const ContactLayout& at, const ContactRowOptions& options,
+                         const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
+                         MotionJacobian<Dim>& motions) {
   assert(pair.side_1.multipliers() + pair.side_2.multipliers() == 0);
-  ContactJacobian<Dim> derivative(pair, at, state, options.h, jacobian);
-  point_rows(PointRows<Dim>{pair, prepared, at, options, state, f, &derivative});
-  motions.start(pair, at, state, options.h, jacobian);
+  motions.start(at, state, options.h, jacobian);
   load_rows(RowContext<Dim, MotionJacobian<Dim>>{pair, prepared, at, options, state, f, &motions});
 }
 
@@ -192,14 +190,14 @@ template void differentiate_contact(const ContactPair<3>&, const PreparedContact
 template void contact_rows(const ContactPair<2>&, const PreparedContact<2>&, const ContactLayout&,
                            const ContactRowOptions&, const ContactState<2>&, Eigen::VectorXd&,
                            Eigen::MatrixXd*);
-template void contact_rows_by_motion(const ContactPair<2>&, const PreparedContact<2>&, const ContactLayout&,
-                                     const ContactRowOptions&, const ContactState<2>&, Eigen::VectorXd&,
-                                     Eigen::MatrixXd&, MotionJacobian<2>&);
+template void load_rows_by_motion(const ContactPair<2>&, const PreparedContact<2>&, const ContactLayout&,
+                                  const ContactRowOptions&, const ContactState<2>&, Eigen::VectorXd&,
+                                  Eigen::MatrixXd&, MotionJacobian<2>&);
 template void contact_rows(const ContactPair<3>&, const PreparedContact<3>&, const ContactLayout&,
                            const ContactRowOptions&, const ContactState<3>&, Eigen::VectorXd&,
                            Eigen::MatrixXd*);
-template void contact_rows_by_motion(const ContactPair<3>&, const PreparedContact<3>&, const ContactLayout&,
-                                     const ContactRowOptions&, const ContactState<3>&, Eigen::VectorXd&,
-                                     Eigen::MatrixXd&, MotionJacobian<3>&);
+template void load_rows_by_motion(const ContactPair<3>&, const PreparedContact<3>&, const ContactLayout&,
+                                  const ContactRowOptions&, const ContactState<3>&, Eigen::VectorXd&,
+                                  Eigen::MatrixXd&, MotionJacobian<3>&);
 
 }  // namespace touchstone

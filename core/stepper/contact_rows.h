@@ -114,13 +114,13 @@ void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prep
                   const ContactRowOptions& options, const ContactState<Dim>& state, Eigen::VectorXd& f,
                   Eigen::MatrixXd* jacobian);
 
-/// The same for a contact without multipliers, in the projection form of friction: rows to f, derivatives of
-/// the closest points' rows to the Jacobian, and those of all others (but sigma's) to `motions`, with what
-/// they are by velocities and impulses directly in the Jacobian. What is written to is zero on entry.
+/// Of a contact without multipliers, in the projection form of friction: friction's and gap's rows, and its
+/// wrench, to f; their derivatives by motions of points and normal to `motions`, and those by velocities and
+/// impulses directly to the Jacobian. What is added to is zero on entry.
 template <int Dim>
-void contact_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
-                            const ContactLayout& at, const ContactRowOptions& options,
-                            const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
-                            MotionJacobian<Dim>& motions);
+void load_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                         const ContactLayout& at, const ContactRowOptions& options,
+                         const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
+                         MotionJacobian<Dim>& motions);
 
 }  // namespace touchstone

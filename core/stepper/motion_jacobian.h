@@ -6,9 +6,9 @@ namespace touchstone {
 
 /// Derivatives of a contact's rows by its motions, before it is known how these follow from the unknowns: by
 /// da_1, da_2 and dn in a matrix of their own, all else (velocities, poses, impulses) in the contact's block.
-/// Where the closest points are eliminated all three follow from the bodies' velocities, so that one product
-/// of small matrices of fixed size, add_response(), is the whole chain rule: the Schur complement, without
-/// rows or columns of points in between.
+/// Where the closest points are eliminated (PointElimination) all three follow from the bodies' velocities,
+/// so that one product of small matrices of fixed size, add_motions(), is the rest of the chain rule: the
+/// Schur complement, without rows or columns of points in between.
 ///
 /// Rows and columns are those of a StepBlock, of which those of points and of sigma are left out. Same
 /// functions of coefficients as ContactJacobian's. For a contact without multipliers.
@@ -30,11 +30,9 @@ class MotionJacobian {
   static constexpr bool has_slip = false;
 
   /// Begins anew at a state. @param jacobian  where all goes that is no motion
-  void start(const ContactPair<Dim>& pair, const ContactLayout& at, const ContactState<Dim>& state, double h,
-             Eigen::MatrixXd& jacobian) {
+  void start(const ContactLayout& at, const ContactState<Dim>& state, double h, Eigen::MatrixXd& jacobian) {
     points_ = at.friction - at.point_1;
     velocities_ = at.point_1;
-    plane_ = {pair.side_1.kind == SideKind::plane, pair.side_2.kind == SideKind::plane};
     state_ = &state;
     h_ = h;
     j_ = &jacobian;
@@ -75,75 +73,25 @@ class MotionJacobian {
   /// Multiplies the derivatives of a row by motions.
   void scale_row(Eigen::Index row, double factor) { on_motion_.row(compact(row)) *= factor; }
 
-  /// Adds to the Jacobian what N velocities do to the rows by way of the closest points and the normal.
-  /// @param response  minus the derivatives of the points' unknowns by the velocities: N of each unknown, one
-  ///                  unknown after the other
-  template <int N>
-  void add_response(const double* response) {
-    Eigen::Matrix<double, kMotions, N> motions;
-    const Eigen::Index second = plane_[0] ? Dim - 1 : Dim;
-    motions.template topRows<Dim>() = -of_unknowns<N>(0, response);
-    motions.template middleRows<Dim>(Dim) = -of_unknowns<N>(1, response + second * N);
-    if (plane_[1]) {
-      motions.template bottomRows<Dim>().setZero();
-    } else {
-      motions.template bottomRows<Dim>() =
-          state_->frame_curvature.lazyProduct(motions.template middleRows<Dim>(Dim));
-    }
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) add_rigid_motion<N>(k, motions);
+  /// Adds to the Jacobian what N velocities do to the rows by way of the motions that they cause.
+  template <int N, typename Motions>
+  void add_motions(const Motions& motions) {
     j_->template block<N, N>(0, 0) += on_motion_.template topRows<N>().lazyProduct(motions);
     j_->template block<kImpulses, N>(velocities_ + points_, 0) +=
         on_motion_.template middleRows<kImpulses>(N).lazyProduct(motions);
   }
-  /// What a change of the points' unknowns alone does to the rows.
-  [[nodiscard]] Rows effect(const double* unknowns) const {
-    Eigen::Matrix<double, kMotions, 1> motion;
-    const Vector<Dim> second = of_unknowns<1>(1, unknowns + (plane_[0] ? Dim - 1 : Dim));
-    motion.template head<Dim>() = of_unknowns<1>(0, unknowns);
-    motion.template segment<Dim>(Dim) = second;
-    motion.template tail<Dim>().setZero();
-    if (!plane_[1]) motion.template tail<Dim>() = state_->frame_curvature * second;
+  /// What a motion does to the rows.
+  [[nodiscard]] Rows effect(const Eigen::Matrix<double, kMotions, 1>& motion) const {
     return on_motion_.topRows(velocities_ + kImpulses).lazyProduct(motion);
   }
 
  private:
-  template <int Rows, int N>
-  using ByVelocity = Eigen::Matrix<double, Rows, N, N == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-
   [[nodiscard]] Eigen::Index compact(Eigen::Index row) const {
     return row < velocities_ ? row : row - points_;
   }
 
-  /// Motion of the closest point of side k with its own unknowns.
-  template <int N>
-  [[nodiscard]] Eigen::Matrix<double, Dim, N> of_unknowns(std::size_t k, const double* unknowns) const {
-    if (!plane_[k]) return Eigen::Map<const ByVelocity<Dim, N>>(unknowns);
-    return state_->side[k].chart.lazyProduct(Eigen::Map<const ByVelocity<Dim - 1, N>>(unknowns));
-  }
-
-  /// What moves with body k: a point on a plane; and the normal with body 2, less what the point does that
-  /// stays behind.
-  template <int N>
-  void add_rigid_motion(std::size_t k, Eigen::Matrix<double, kMotions, N>& motions) const {
-    const BodyAtEnd<Dim>& body = state_->body[k];
-    if (body.column < 0) return;
-    const auto row = Dim * static_cast<Eigen::Index>(k);
-    const LeverMatrix<Dim> by_spin = lever(state_->side[k].arm) * body.turn;
-    if (plane_[k]) {
-      motions.template block<Dim, Dim>(row, body.column).diagonal().array() += h_;
-      motions.template block<Dim, kAngular>(row, body.column + Dim) += by_spin;
-    }
-    if (k == 0) return;
-    motions.template block<Dim, kAngular>(2 * Dim, body.column + Dim) +=
-        lever(state_->frame.normal) * body.turn;
-    if (plane_[k]) return;
-    motions.template block<Dim, Dim>(2 * Dim, body.column) -= h_ * state_->frame_curvature;
-    motions.template block<Dim, kAngular>(2 * Dim, body.column + Dim) -= state_->frame_curvature * by_spin;
-  }
-
   Eigen::Index points_ = 0;      ///< rows of the closest points, which are left out
   Eigen::Index velocities_ = 0;  ///< rows of the bodies
-  std::array<bool, 2> plane_{};
   const ContactState<Dim>* state_ = nullptr;
   double h_ = 0.0;
   Eigen::MatrixXd* j_ = nullptr;
