@@ -166,9 +166,10 @@ void CondensedContact<Dim>::add_hold(double hold) {
 template <int Dim>
 void CondensedContact<Dim>::add_motions() {
   if (part_.block.own == kVelocity) {
-    motions_.template add_motions<kVelocity>(points_.template motions<kVelocity>());
+    motions_.template add_motions<kVelocity>(points_.template motions<kVelocity>(), points_.normal_turns());
   } else {
-    motions_.template add_motions<2 * kVelocity>(points_.template motions<2 * kVelocity>());
+    motions_.template add_motions<2 * kVelocity>(points_.template motions<2 * kVelocity>(),
+                                                 points_.normal_turns());
   }
 }
 

@@ -8,6 +8,12 @@ namespace {
 
 constexpr std::array<double, 2> kSign = {1.0, -1.0};  ///< impulses act on body 1, their opposites on body 2
 
+/// r x F.
+Angular<2> moment_of(const Vector<2>& r, const Vector<2>& force) {
+  return Angular<2>(r.x() * force.y() - r.y() * force.x());
+}
+Angular<3> moment_of(const Vector<3>& r, const Vector<3>& force) { return r.cross(force); }
+
 /// 0 <= p_n _|_ f(a_2) >= 0, Eq. 6.
 template <int Dim, typename Derivative>
 void workspace_gap_row(const RowContext<Dim, Derivative>& c) {
@@ -65,6 +71,7 @@ void slip_derivative(const RowContext<Dim, Derivative>& c, Eigen::Index row,
   if constexpr (Dim == 3) on_normal += on_v.col(2) * state.spin_velocity.transpose();
   d.template frame<R>(row, on_normal);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    if (state.body[k].column < 0) continue;  // rests
     const Rows on_arm = kSign[k] * on_slip *
                         spin_matrix(Angular<Dim>(state.body[k].nu.template tail<Dimension<Dim>::angular>()));
     d.template point<R>(row, k, on_arm);
@@ -82,12 +89,18 @@ void friction_law_rows(const RowContext<Dim, Derivative>& c) {
   using Scalar = Eigen::Matrix<double, 1, 1>;
   constexpr int n = Dimension<Dim>::friction;
   const auto& state = c.state;
-  const FrictionRows<Dim> rows =
-      friction_rows<Dim>(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y,
-                         scaled_slip(c), state.p, state.s, c.options.smoothing);
-  c.f.template segment<n>(c.at.friction) = rows.value;
-  c.f[c.at.slip] = rows.slip_value;
-  if (c.derivative == nullptr) return;
+  const auto evaluate = [&](auto law) {
+    const auto rows = law(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y,
+                          scaled_slip(c), state.p, state.s, c.options.smoothing);
+    c.f.template segment<n>(c.at.friction) = rows.value;
+    c.f[c.at.slip] = rows.slip_value;
+    return rows;
+  };
+  if (c.derivative == nullptr) {
+    evaluate(&friction_values<Dim>);
+    return;
+  }
+  const FrictionRows<Dim> rows = evaluate(&friction_rows<Dim>);
   auto& d = *c.derivative;
   slip_derivative<n, Dim>(c, c.at.friction, rows.d_w);
   d.template impulse<n, n>(c.at.friction, c.at.friction, rows.d_y);
@@ -126,13 +139,13 @@ void momentum_rows(const RowContext<Dim, Derivative>& c) {
     const Eigen::Index row = body.column;
     const double linear = -kSign[k] * body.row_scale[0];
     const double angular = -kSign[k] * body.row_scale[Dim];
-    const Eigen::Matrix<double, kAngular, Dim> moment = lever(state.side[k].arm).transpose();  // F -> r x F
     c.f.template segment<Dim>(row) += linear * force;
-    c.f.template segment<kAngular>(row + Dim) += angular * (moment * force);
+    c.f.template segment<kAngular>(row + Dim) += angular * moment_of(state.side[k].arm, force);
     if constexpr (Dim == 3) c.f.template segment<3>(row + 3) += angular * friction[2] * frame.normal;
     if (c.derivative == nullptr) continue;
 
     auto& d = *c.derivative;
+    const Eigen::Matrix<double, kAngular, Dim> moment = lever(state.side[k].arm).transpose();  // F -> r x F
     d.template frame<Dim>(row, linear * force_on_normal);
     Eigen::Matrix<double, kAngular, Dim> moment_on_normal = moment * force_on_normal;
     if constexpr (Dim == 3) moment_on_normal += friction[2] * Matrix<3>::Identity();

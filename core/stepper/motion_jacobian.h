@@ -74,11 +74,30 @@ class MotionJacobian {
   void scale_row(Eigen::Index row, double factor) { on_motion_.row(compact(row)) *= factor; }
 
   /// Adds to the Jacobian what N velocities do to the rows by way of the motions that they cause.
+  /// @param normal_turns  whether dn may be other than zero
   template <int N, typename Motions>
-  void add_motions(const Motions& motions) {
-    j_->template block<N, N>(0, 0) += on_motion_.template topRows<N>().lazyProduct(motions);
-    j_->template block<kImpulses, N>(velocities_ + points_, 0) +=
-        on_motion_.template middleRows<kImpulses>(N).lazyProduct(motions);
+  void add_motions(const Motions& motions, bool normal_turns) {
+    constexpr int kPoints = 2 * Dim;
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+      const Eigen::Index row = state_->body[k].column;
+      if (row < 0) continue;
+      // Forces do not depend on where they act, and moments on no other point than their own.
+      const auto point = Dim * static_cast<Eigen::Index>(k);
+      j_->template block<kAngular, N>(row + Dim, 0) +=
+          on_motion_.template block<kAngular, Dim>(row + Dim, point)
+              .lazyProduct(motions.template middleRows<Dim>(point));
+      if (normal_turns) {
+        j_->template block<kVelocity, N>(row, 0) += on_motion_.template block<kVelocity, Dim>(row, kPoints)
+                                                        .lazyProduct(motions.template bottomRows<Dim>());
+      }
+    }
+    auto impulses = j_->template block<kImpulses, N>(velocities_ + points_, 0);
+    const auto on_motion = on_motion_.template middleRows<kImpulses>(N);
+    if (normal_turns) {
+      impulses += on_motion.lazyProduct(motions);
+    } else {
+      impulses += on_motion.template leftCols<kPoints>().lazyProduct(motions.template topRows<kPoints>());
+    }
   }
   /// What a motion does to the rows.
   [[nodiscard]] Rows effect(const Eigen::Matrix<double, kMotions, 1>& motion) const {

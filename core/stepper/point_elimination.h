@@ -33,6 +33,8 @@ class PointElimination {
   [[nodiscard]] auto motions() const {
     return motions_.template leftCols<N>();
   }
+  /// Whether they turn the normal: not that of a plane at rest.
+  [[nodiscard]] bool normal_turns() const { return !plane_ || carrier_ >= 0; }
   /// That makes the points' rows grow by `rows`, with bodies at rest.
   [[nodiscard]] Motion motion_of(const double* rows) const;
   /// Change of the points' unknowns, in their order: of `rest`, a motion with bodies at rest, and of what the
