@@ -21,7 +21,8 @@ void ReducedSystem::add(std::span<const Eigen::Index> unknown, std::span<const E
     auto matrix = lu_.matrix(size_);
     // Unknowns that stand side by side in both, a body's or a contact's, are taken together.
     for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
-      for (end = begin + 1; end < n && place[end] - place[begin] == unknown[end] - unknown[begin];) ++end;
+      end = begin + 1;
+      while (end < n && place[end] == place[end - 1] + 1 && unknown[end] == unknown[end - 1] + 1) ++end;
       const auto rows = static_cast<Eigen::Index>(end - begin);
       for (std::size_t c = 0; c < n; ++c) {
         double* __restrict const target = &matrix(place[begin], place[c]);
