@@ -99,12 +99,24 @@ Scene<Dim> pile_on_a_ball() {
   return scene;
 }
 
+/// With a plane that moves and turns, and with it the normal.
+template <int Dim>
+Scene<Dim> pile_on_a_moving_plane() {
+  Scene<Dim> scene = pile<Dim>();
+  scene.bodies[0].fixed = false;
+  scene.bodies[0].mass = 20;
+  scene.bodies[0].velocity.setConstant(0.2);
+  return scene;
+}
+
 TEST(CondensedSystem, NewtonStepsAreThoseOfTheFullProblem) {
   for (const double size : {1e-6, 1e-3, 1e-2}) {
     expect_same_steps(pile<2>(), size);
     expect_same_steps(pile_on_a_ball<2>(), size);
+    expect_same_steps(pile_on_a_moving_plane<2>(), size);
     expect_same_steps(pile<3>(), size);
     expect_same_steps(pile_on_a_ball<3>(), size);
+    expect_same_steps(pile_on_a_moving_plane<3>(), size);
   }
 }
 
