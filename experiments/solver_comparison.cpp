@@ -2,7 +2,7 @@
 // say that it has solved? Success criterion: ours solve every problem that has a solution from every listed
 // start, report every one that has none, and claim nothing falsely; elimination is at least five times faster
 // than the fastest single solver of Siconos that solves the same steps (a measurement of each run; from the
-// same start it is about three times faster, see README.md). Source: problems of the literature (Kojima &
+// same start it is about four times faster, see README.md). Source: problems of the literature (Kojima &
 // Shindo, Josephy, Billups, Murphy et al., Murty; see problems/literature.h), random linear problems of known
 // solution, steps of the example scenes, and whole trajectories; profiles after Dolan & More, "Benchmarking
 // optimization software with performance profiles" (2002). The judge is the natural residual of

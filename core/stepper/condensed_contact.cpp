@@ -26,6 +26,7 @@ void CondensedContact<Dim>::bind(StepProblem<Dim>& problem, std::size_t i) {
   const int multipliers = pair.side_1.multipliers() + pair.side_2.multipliers();
   const int points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns() + multipliers;
   const auto count = static_cast<std::size_t>(points);
+  by_motion_ = false;
   active_.reserve(static_cast<std::size_t>(multipliers));
   eliminated_.reserve(count);
   response_.reserve(count * 2 * kVelocity);
@@ -98,6 +99,7 @@ void CondensedContact<Dim>::set_rows(const CondensedForm& form, const Eigen::Vec
   const auto replace = [&](Eigen::Index row, double value) {
     block.f[row] = value;
     if (!derivatives) return;
+    if (by_motion_) motions_.scale_row(row, 0.0);
     block.j.row(row).head(block.size).setZero();
     block.j(row, row) = 1;
   };
@@ -106,6 +108,7 @@ void CondensedContact<Dim>::set_rows(const CondensedForm& form, const Eigen::Vec
       const FischerBurmeisterTerm term(unknown, weight * block.f[row], form.smoothing);
       block.f[row] = term.value;
       if (!derivatives) return;
+      if (by_motion_) motions_.scale_row(row, weight * term.by_row);
       block.j.row(row).head(block.size) *= weight * term.by_row;
       block.j(row, row) += term.by_unknown;
     };
@@ -128,18 +131,46 @@ template <int Dim>
 void CondensedContact<Dim>::condense(const CondensedForm& form, double hold, const Eigen::VectorXd& z,
                                      Eigen::Index& reduced_size) {
   choose_rows(form, z);
+  const ContactPair<Dim>& pair = problem_->contacts()[i_];
+  by_motion_ = PointElimination<Dim>::applies_to(pair);
+  if (by_motion_) {
+    problem_->contact_block_by_motion(i_, part_.block, motions_);
+    by_motion_ = points_.factor(pair, problem_->state(i_), problem_->scale().length, problem_->step_size());
+  }
+  if (by_motion_) {
+    set_rows(form, z, true);
+    add_hold(hold);
+    list_kept(reduced_size);
+    keeps_points_ = false;
+    add_motions();
+    return;
+  }
   problem_->contact_block(i_, true, part_.block);
   set_rows(form, z, true);
-  StepBlock<Dim>& block = part_.block;
-  if (hold > 0) {
-    for (Eigen::Index r = block.at.friction; r <= block.at.normal; ++r) block.j(r, r) += hold;
-  }
+  add_hold(hold);
   list_points();
   list_kept(reduced_size);
   factor_points(reduced_size);
   if (keeps_points_) return;
   find_response();
   subtract_response();
+}
+
+template <int Dim>
+void CondensedContact<Dim>::add_hold(double hold) {
+  StepBlock<Dim>& block = part_.block;
+  if (hold == 0) return;
+  for (Eigen::Index r = block.at.friction; r <= block.at.normal; ++r) block.j(r, r) += hold;
+}
+
+template <int Dim>
+void CondensedContact<Dim>::add_motions() {
+  if (part_.block.own == kVelocity) {
+    motions_.template add_motions<kVelocity>(points_.template motions<kVelocity>(), points_.normal_turns());
+  } else {
+    motions_.template add_motions<2 * kVelocity>(points_.template motions<2 * kVelocity>(),
+                                                 points_.normal_turns());
+  }
 }
 
 template <int Dim>
@@ -251,6 +282,13 @@ void CondensedContact<Dim>::add_right_side(Eigen::VectorXd& right_side) {
     if (kept[m] >= block.own) right_side[part_.place[m]] -= block.f[kept[m]];
   }
   if (keeps_points_) return;
+  if (by_motion_) {
+    rest_ = points_.motion_of(block.f.data() + block.own);
+    const typename MotionJacobian<Dim>::Rows effect = motions_.effect(rest_);
+    for (std::size_t m = 0; m < kept.size(); ++m)
+      right_side[part_.place[m]] += effect[static_cast<Eigen::Index>(m)];
+    return;
+  }
   const std::size_t e = eliminated_.size();
   for (std::size_t r = 0; r < e; ++r) offset_[static_cast<Eigen::Index>(r)] = block.f[eliminated_[r]];
   solve_points(offset_.data());
@@ -269,6 +307,13 @@ void CondensedContact<Dim>::expand(const Eigen::VectorXd& solution, Eigen::Vecto
     if (part_.kept[m] >= block.own) step[column_in_z(part_.kept[m])] = solution[part_.place[m]];
   }
   if (keeps_points_) return;
+  if (by_motion_) {
+    std::array<double, 2 * kVelocity> velocities;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(block.own); ++c)
+      velocities[c] = solution[part_.place[c]];
+    points_.read_unknowns(-rest_, velocities.data(), step.data() + column_in_z(block.own));
+    return;
+  }
   for (std::size_t r = 0; r < eliminated_.size(); ++r) {
     const auto row = static_cast<Eigen::Index>(r);
     double change = -offset_[row];

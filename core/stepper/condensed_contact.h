@@ -4,6 +4,7 @@
 
 #include "core/complementarity/dense_lu.h"
 #include "core/stepper/condensed_part.h"
+#include "core/stepper/point_elimination.h"
 #include "core/stepper/step_problem.h"
 
 namespace touchstone {
@@ -59,12 +60,14 @@ class CondensedContact {
 
   void choose_rows(const CondensedForm& form, const Eigen::VectorXd& z);
   void set_rows(const CondensedForm& form, const Eigen::VectorXd& z, bool derivatives);
+  void add_hold(double hold);
   void list_points();
   void list_kept(Eigen::Index& reduced_size);
   void fill_eliminated();
   void factor_points(Eigen::Index& reduced_size);
   void find_response();
   void subtract_response();
+  void add_motions();
   void solve_points(double* x);
   [[nodiscard]] Eigen::Index column_in_z(Eigen::Index unknown) const;
 
@@ -73,15 +76,19 @@ class CondensedContact {
   double gap_weight_ = 1.0;  ///< makes a gap the velocity of a step that closes it, to compare p_n with
   CondensedPart<Dim> part_;
   double geometry_residual_ = 0.0;
-  bool touching_ = false;                 ///< the gap row stands
-  bool loaded_ = false;                   ///< the impulse is among what is solved together
-  bool regular_ = false;                  ///< the closest points follow from the poses
-  bool keeps_points_ = false;             ///< they are among what is solved together
-  std::vector<bool> active_;              ///< inequalities whose row stands
-  std::vector<Eigen::Index> eliminated_;  ///< of the block's unknowns
-  DenseLu lu_;                            ///< of the eliminated rows and unknowns
-  std::vector<double> response_;          ///< - d eliminated / d nu', row after row
-  Eigen::VectorXd offset_;                ///< of the eliminated unknowns, for no motion of the kept ones
+  bool touching_ = false;         ///< the gap row stands
+  bool loaded_ = false;           ///< the impulse is among what is solved together
+  bool regular_ = false;          ///< the closest points follow from the poses
+  bool keeps_points_ = false;     ///< they are among what is solved together
+  bool by_motion_ = false;        ///< the points are eliminated in closed form,
+  PointElimination<Dim> points_;  ///< by this
+  MotionJacobian<Dim> motions_;
+  typename PointElimination<Dim>::Motion rest_;  ///< for no motion of the kept unknowns, negative
+  std::vector<bool> active_;                     ///< inequalities whose row stands
+  std::vector<Eigen::Index> eliminated_;         ///< of the block's unknowns
+  DenseLu lu_;                                   ///< of the eliminated rows and unknowns
+  std::vector<double> response_;                 ///< - d eliminated / d nu', row after row
+  Eigen::VectorXd offset_;  ///< of the eliminated unknowns, for no motion of the kept ones
   Eigen::VectorXd column_, scratch_;
 };
 

@@ -25,6 +25,8 @@ class ContactJacobian {
   template <int R>
   using OnTurn = Eigen::Matrix<double, R, kAngular>;
 
+  static constexpr bool has_slip = true;  ///< holds the row and column of sigma
+
   ContactJacobian(const ContactPair<Dim>& pair, const ContactLayout& at, const ContactState<Dim>& state,
                   double h, Eigen::MatrixXd& jacobian)
       : pair_(pair), at_(at), state_(state), h_(h), j_(jacobian) {}
@@ -53,6 +55,12 @@ class ContactJacobian {
   void spin(Eigen::Index row, std::size_t k, const OnTurn<R>& coefficient) {
     const Eigen::Index column = state_.body[k].column;
     if (column >= 0) j_.template block<R, kAngular>(row, column + Dim) += coefficient;
+  }
+
+  /// Derivatives by the contact's own impulses or sigma.
+  template <int R, int C>
+  void impulse(Eigen::Index row, Eigen::Index column, const Eigen::Matrix<double, R, C>& block) {
+    j_.template block<R, C>(row, column) += block;
   }
 
   /// Coefficient of d a: the closest point moves. On a plane d a = chart d s + d p + d theta x r.

@@ -7,6 +7,9 @@
 /// The rows of Eqs. 10-11 that belong to one contact, and their derivatives.
 namespace touchstone {
 
+template <int Dim>
+class MotionJacobian;
+
 /// Which gap the normal complementarity is written with.
 enum class GapFunction {
   /// f(a_2), the value of body 1's inequality at body 2's closest point (Eq. 6). Only where body 1 is one
@@ -110,5 +113,14 @@ template <int Dim>
 void contact_rows(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared, const ContactLayout& at,
                   const ContactRowOptions& options, const ContactState<Dim>& state, Eigen::VectorXd& f,
                   Eigen::MatrixXd* jacobian);
+
+/// Of a contact without multipliers, in the projection form of friction: friction's and gap's rows, and its
+/// wrench, to f; their derivatives by motions of points and normal to `motions`, and those by velocities and
+/// impulses directly to the Jacobian. What is added to is zero on entry.
+template <int Dim>
+void load_rows_by_motion(const ContactPair<Dim>& pair, const PreparedContact<Dim>& prepared,
+                         const ContactLayout& at, const ContactRowOptions& options,
+                         const ContactState<Dim>& state, Eigen::VectorXd& f, Eigen::MatrixXd& jacobian,
+                         MotionJacobian<Dim>& motions);
 
 }  // namespace touchstone

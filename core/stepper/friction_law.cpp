@@ -27,29 +27,48 @@ FrictionRows<Dim> fritz_john(double mu, const FrictionVector<Dim>& y, const Fric
 /// With d = y - rho w: inside the ball the row is rho w = 0 (stick); outside it is y - mu p d/|d| (slip along
 /// -w).
 template <int Dim>
+struct Projection {
+  Projection(double mu, double rho, const FrictionVector<Dim>& y, const FrictionVector<Dim>& w, double p,
+             double s)
+      : direction(y - rho * w), radius(mu * std::max(p, 0.0)), length(direction.norm()), speed(w.norm()) {
+    slip_value = s - speed;
+    sticks = length <= radius;
+    if (sticks) {
+      value = rho * w;
+    } else {
+      direction /= length;
+      value = y - radius * direction;
+    }
+  }
+
+  FrictionVector<Dim> direction;  ///< d, or d/|d| where it slips
+  double radius, length, speed;
+  bool sticks;
+  FrictionVector<Dim> value;
+  double slip_value;
+};
+
+template <int Dim>
 inline FrictionRows<Dim> projection(double mu, double rho, const FrictionVector<Dim>& y,
                                     const FrictionVector<Dim>& w, double p, double s) {
   using Rows = FrictionRows<Dim>;
   using Square = typename Rows::Square;
+  const Projection<Dim> projected(mu, rho, y, w, p, s);
   Rows rows;
-  const FrictionVector<Dim> d = y - rho * w;
-  const double length = d.norm();
-  const double radius = mu * std::max(p, 0.0);
-  if (length <= radius) {
-    rows.value = rho * w;
+  rows.value = projected.value;
+  if (projected.sticks) {
     rows.d_w = rho * Square::Identity();
   } else {
-    const FrictionVector<Dim> direction = d / length;
-    const Square derivative = radius / length * (Square::Identity() - direction * direction.transpose());
-    rows.value = y - radius * direction;
+    const FrictionVector<Dim>& direction = projected.direction;
+    const Square derivative =
+        projected.radius / projected.length * (Square::Identity() - direction * direction.transpose());
     rows.d_y = Square::Identity() - derivative;
     rows.d_w = rho * derivative;
     if (p > 0) rows.d_p = -mu * direction;
   }
-  const double speed = w.norm();
-  rows.slip_value = s - speed;
+  rows.slip_value = projected.slip_value;
   rows.slip_d_s = 1;
-  if (speed > 0) rows.slip_d_w = -w.transpose() / speed;
+  if (projected.speed > 0) rows.slip_d_w = -w.transpose() / projected.speed;
   return rows;
 }
 
@@ -129,6 +148,24 @@ FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const 
   return rows;
 }
 
+template <int Dim>
+FrictionValues<Dim> friction_values(FrictionForm form, double mu, double rho,
+                                    const FrictionVector<Dim>& active, const FrictionVector<Dim>& y,
+                                    const FrictionVector<Dim>& w, double p, double s, double smoothing) {
+  if (form != FrictionForm::projection || smoothing > 0) {
+    const FrictionRows<Dim> rows = friction_rows<Dim>(form, mu, rho, active, y, w, p, s, smoothing);
+    return {rows.value, rows.slip_value};
+  }
+  const Projection<Dim> projected(mu, rho, active.cwiseProduct(y), w, p, s);
+  return {(active.array() != 0).select(projected.value, y), projected.slip_value};
+}
+
+template FrictionValues<2> friction_values(FrictionForm, double, double, const FrictionVector<2>&,
+                                           const FrictionVector<2>&, const FrictionVector<2>&, double, double,
+                                           double);
+template FrictionValues<3> friction_values(FrictionForm, double, double, const FrictionVector<3>&,
+                                           const FrictionVector<3>&, const FrictionVector<3>&, double, double,
+                                           double);
 template FrictionRows<2> friction_rows(FrictionForm, double, double, const FrictionVector<2>&,
                                        const FrictionVector<2>&, const FrictionVector<2>&, double, double,
                                        double);

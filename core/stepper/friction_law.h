@@ -50,4 +50,15 @@ FrictionRows<Dim> friction_rows(FrictionForm form, double mu, double rho, const 
                                 const FrictionVector<Dim>& y, const FrictionVector<Dim>& w, double p,
                                 double s, double smoothing = 0.0);
 
+/// The rows without their derivatives.
+template <int Dim>
+struct FrictionValues {
+  FrictionVector<Dim> value;
+  double slip_value = 0.0;
+};
+template <int Dim>
+FrictionValues<Dim> friction_values(FrictionForm form, double mu, double rho,
+                                    const FrictionVector<Dim>& active, const FrictionVector<Dim>& y,
+                                    const FrictionVector<Dim>& w, double p, double s, double smoothing);
+
 }  // namespace touchstone

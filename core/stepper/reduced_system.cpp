@@ -19,8 +19,16 @@ void ReducedSystem::add(std::span<const Eigen::Index> unknown, std::span<const E
   const std::size_t n = place.size();
   if (dense_) {
     auto matrix = lu_.matrix(size_);
-    for (std::size_t c = 0; c < n; ++c) {
-      for (std::size_t r = 0; r < n; ++r) matrix(place[r], place[c]) += block(unknown[r], unknown[c]);
+    // Unknowns that stand side by side in both, a body's or a contact's, are taken together.
+    for (std::size_t begin = 0, end = 0; begin < n; begin = end) {
+      end = begin + 1;
+      while (end < n && place[end] == place[end - 1] + 1 && unknown[end] == unknown[end - 1] + 1) ++end;
+      const auto rows = static_cast<Eigen::Index>(end - begin);
+      for (std::size_t c = 0; c < n; ++c) {
+        double* __restrict const target = &matrix(place[begin], place[c]);
+        const double* __restrict const source = &block(unknown[begin], unknown[c]);
+        for (Eigen::Index r = 0; r < rows; ++r) target[r] += source[r];
+      }
     }
     return;
   }

@@ -213,6 +213,20 @@ void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<
 }
 
 template <int Dim>
+void StepProblem<Dim>::contact_block_by_motion(std::size_t i, StepBlock<Dim>& block,
+                                               MotionJacobian<Dim>& motions) const {
+  constexpr Eigen::Index kImpulses = Dimension<Dim>::friction + 1;
+  block.f.head(block.own).setZero();
+  block.j.topLeftCorner(block.own, block.own).setZero();
+  block.j.block(block.at.friction, 0, kImpulses, block.own).setZero();
+  block.j.block(0, block.at.friction, block.own, kImpulses).setZero();
+  block.j.template block<kImpulses, kImpulses>(block.at.friction, block.at.friction).setZero();
+  differentiate_state(i);
+  load_rows_by_motion(contacts_[i], prepared_[i], block.at, row_options_, states_[i], block.f, block.j,
+                      motions);
+}
+
+template <int Dim>
 std::array<int, 2> StepProblem<Dim>::places(std::size_t i) const {
   return {bodies_.place(contacts_[i].body_1), bodies_.place(contacts_[i].body_2)};
 }

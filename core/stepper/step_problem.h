@@ -9,6 +9,7 @@
 #include "core/method.h"
 #include "core/stepper/contact_rows.h"
 #include "core/stepper/joint_rows.h"
+#include "core/stepper/motion_jacobian.h"
 #include "core/stepper/step_bodies.h"
 
 namespace touchstone {
@@ -94,6 +95,8 @@ class StepProblem final : public MixedComplementarityProblem {
   void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
   /// Rows of contact i where it was evaluated last, and their derivatives if asked for.
   void contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const;
+  /// After contact_block() at the same z: what load_rows_by_motion() gives.
+  void contact_block_by_motion(std::size_t i, StepBlock<Dim>& block, MotionJacobian<Dim>& motions) const;
   /// Numbers of the moving bodies of contact i in this island, -1 for a fixed one.
   [[nodiscard]] std::array<int, 2> places(std::size_t i) const;
   /// psi [m] of contact i where it was evaluated last.
