@@ -18,13 +18,13 @@ constexpr double kRoundGain = 0.5;     ///< factor of the residual that counts a
 constexpr double kSweepGain = 0.05;    ///< of the residual: largest change of an impulse that ends a round
 constexpr int kFirstStage = 40;        ///< sweeps before they are narrowed to where impulses change
 constexpr double kNearLargest = 0.01;  ///< of the largest residual: bodies from there on are chosen ...
+constexpr int kHops = 2;               ///< ... with their neighbours up to so many contacts away
+constexpr int kPatience = 2;           ///< rounds without a gain after which one that rises is shortened
+constexpr double kShortest = 0.25;     ///< part of a round that is taken at least
+constexpr int kFalls = 3;              ///< rounds in a row that fall after which they are lengthened again
 /// Slack over the largest residual from which a contact without load is left alone for a round, since
 /// velocities change by less; were it wrong, the contact's residual would tell in the end.
 constexpr double kFar = 30;
-constexpr int kHops = 2;            ///< ... with their neighbours up to so many contacts away
-constexpr int kPatience = 2;        ///< rounds without a gain after which one that rises is shortened
-constexpr double kShortest = 0.25;  ///< part of a round that is taken at least
-constexpr int kFalls = 3;           ///< rounds in a row that fall after which they are lengthened again
 
 /// The larger of two; NaN is larger than any number.
 double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
@@ -62,7 +62,7 @@ int ContactRelaxation<Dim>::run(StepProblem<Dim>& problem, double tolerance, Eig
     }
     if (residual_ <= tolerance) take_up(problem, z);
   }
-  take_up(problem, z);
+  if (!(residual_ <= tolerance)) take_up(problem, z);
   return rounds;
 }
 
@@ -82,7 +82,8 @@ template <int Dim>
 void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z) {
   const bool shortened = pace.part < 1;
   if (shortened) start_ = z;
-  sweeps_.start(problem, touched_, chosen_);
+  sweeps_.start(touched_, residual_);
+  for (const std::size_t b : chosen_) sweeps_.restore_momentum(problem, b, momentum(problem, b, z));
   written_ = swept_;
   sweep(pace.sweeps, kSweepGain * std::min(residual_, 1.0));
   sweeps_.write(problem, written_, chosen_, z);
@@ -103,7 +104,7 @@ void ContactRelaxation<Dim>::sweep(int limit, double tolerance) {
   for (int stage = kFirstStage; made < limit && !swept_.empty(); stage *= 2) {
     // Where impulses still change after the first stage, contacts open and slide in turn.
     const Acceleration kind = made == 0 ? Acceleration::anderson : Acceleration::conjugate_gradients;
-    made += sweeps_.run_accelerated(swept_, std::min(stage, limit - made), tolerance, kind);
+    made += sweeps_.run(swept_, std::min(stage, limit - made), tolerance, kind);
     narrow(tolerance);
   }
 }
@@ -155,6 +156,10 @@ template <int Dim>
 void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) {
   Contact& contact = contacts_[i];
   const ContactLayout& in_z = problem.layout().contact(i);
+  if (!(z[in_z.normal] > 0)) {
+    z[in_z.normal] = 0;
+    z.template segment<Dimension<Dim>::friction>(in_z.friction).setZero();
+  }
   problem.evaluate_state(i, z);
   sweeps_.freeze(problem, i, z);
   problem.contact_block(i, false, block_);
@@ -185,16 +190,21 @@ void ContactRelaxation<Dim>::judge_all(const StepProblem<Dim>& problem, const Ei
 
 template <int Dim>
 void ContactRelaxation<Dim>::judge(const StepProblem<Dim>& problem, std::size_t b, const Eigen::VectorXd& z) {
-  const int body = static_cast<int>(b);
-  Twist<Dim> momentum = problem.momentum_row(body, z);
   double worst = 0;
-  for (const std::size_t i : contacts_of(b)) {
-    const Contact& contact = contacts_[i];
-    momentum += contact.wrench[contact.place[0] == body ? 0 : 1];
-    worst = larger(worst, contact.residual);
-  }
-  for (const double row : momentum) worst = larger(worst, std::abs(row));
+  for (const std::size_t i : contacts_of(b)) worst = larger(worst, contacts_[i].residual);
+  for (const double row : momentum(problem, b, z)) worst = larger(worst, std::abs(row));
   bodies_[b].residual = worst;
+}
+
+/// Momentum row of a body with the wrenches of its contacts.
+template <int Dim>
+Twist<Dim> ContactRelaxation<Dim>::momentum(const StepProblem<Dim>& problem, std::size_t b,
+                                            const Eigen::VectorXd& z) const {
+  const int body = static_cast<int>(b);
+  Twist<Dim> row = problem.momentum_row(body, z);
+  for (const std::size_t i : contacts_of(b))
+    row += contacts_[i].wrench[contacts_[i].place[0] == body ? 0 : 1];
+  return row;
 }
 
 template <int Dim>

@@ -3,13 +3,13 @@
 #include <span>
 #include <vector>
 
-#include "core/stepper/contact_sweeps.h"
+#include "core/stepper/accelerated_sweeps.h"
 #include "core/stepper/step_problem.h"
 
 namespace touchstone {
 
-/// Solves a step of many contacts by rounds: sweeps on frozen geometry (contact_sweeps.h), and the geometry
-/// anew. No matrix is factorised, so that work and memory of a round go with the contacts.
+/// Solves a step of many contacts by rounds: sweeps on frozen geometry (accelerated_sweeps.h), and the
+/// geometry anew. No matrix is factorised, so that work and memory of a round go with the contacts.
 ///
 /// A round works where the problem is not solved yet: on the bodies whose residual is near the largest, and
 /// their neighbours; and its sweeps go on where impulses still change. Contacts are solved here in a few
@@ -63,6 +63,8 @@ class ContactRelaxation {
   void evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
   void judge_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void judge(const StepProblem<Dim>& problem, std::size_t b, const Eigen::VectorXd& z);
+  [[nodiscard]] Twist<Dim> momentum(const StepProblem<Dim>& problem, std::size_t b,
+                                    const Eigen::VectorXd& z) const;
   void find_residual();
   void choose(double threshold);
   void spread(bool Body::*mark, std::vector<std::size_t>& bodies);
@@ -79,7 +81,7 @@ class ContactRelaxation {
     return {neighbours_.data() + first_[body], first_[body + 1] - first_[body]};
   }
 
-  ContactSweeps<Dim> sweeps_;
+  AcceleratedSweeps<Dim> sweeps_;
   StepBlock<Dim> block_;
   std::vector<Contact> contacts_;
   std::vector<Body> bodies_;

@@ -1,6 +1,5 @@
 #include "core/stepper/contact_sweeps.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 namespace touchstone {
@@ -29,101 +28,15 @@ void ContactSweeps<Dim>::run(const StepProblem<Dim>& problem, int sweeps, Eigen:
   write(problem, z);
 }
 
-template <int Dim>
-void ContactSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
-  bodies_.resize(static_cast<std::size_t>(problem.moving_bodies()));
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const int place = static_cast<int>(b);
-    const MotionMatrix<Dim> matrix = problem.momentum_matrix(place);
-    const Twist<Dim>& scale = problem.momentum_scale(place);
-    bodies_[b].inverse_mass = scale[0] / matrix(0, 0);
-    bodies_[b].inverse_inertia =
-        scale[Dim] * matrix.template bottomRightCorner<kAngular, kAngular>().inverse();
-  }
-  contacts_.resize(problem.contacts().size());
-  contact_courses_.resize(contacts_.size());
-  body_courses_.resize(bodies_.size());
-  joints_.clear();
-}
-
-template <int Dim>
-void ContactSweeps<Dim>::start(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
-                               std::span<const std::size_t> bodies) {
-  for (Body& body : bodies_) body.moves = false;
-  for (const std::size_t b : bodies) {
-    bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
-    bodies_[b].moves = true;
-  }
-  for (const std::size_t i : contacts) push(contacts_[i], contacts_[i].impulse(), true);
-}
-
-template <int Dim>
-int ContactSweeps<Dim>::run_accelerated(std::span<const std::size_t> contacts, int limit, double tolerance,
-                                        SweepAcceleration::Kind kind) {
-  acceleration_.begin(kind);
-  list_bodies(contacts);
-  for (int sweeps = 2;; sweeps += 2) {
-    double largest = 0;
-    for (const std::size_t i : contacts) {
-      if (sweeps > 2) take_step(i);
-      contacts_[i].before = contacts_[i].impulse();
-      sweep(contacts_[i]);
-    }
-    for (auto at = contacts.rbegin(); at != contacts.rend(); ++at) {
-      const std::size_t i = *at;
-      sweep(contacts_[i]);
-      const Impulse change = contacts_[i].impulse() - contacts_[i].before;
-      contact_courses_[i].record(acceleration_, change.template cast<float>());
-      largest = std::max(largest, change.cwiseAbs().maxCoeff());
-    }
-    if (largest <= tolerance || sweeps >= limit) return sweeps;
-    for (const std::size_t b : swept_bodies_)
-      body_courses_[b].record(acceleration_, (bodies_[b].nu - bodies_[b].before).template cast<float>());
-    acceleration_.decide();
-    for (const std::size_t b : swept_bodies_) {
-      bodies_[b].nu += body_courses_[b].step(acceleration_).template cast<double>();
-      bodies_[b].before = bodies_[b].nu;
-    }
-  }
-}
-
-template <int Dim>
-void ContactSweeps<Dim>::list_bodies(std::span<const std::size_t> contacts) {
-  swept_bodies_.clear();
-  for (const std::size_t i : contacts) {
-    for (const int place : contacts_[i].place) {
-      if (place < 0) continue;
-      Body& body = bodies_[static_cast<std::size_t>(place)];
-      if (body.listed) continue;
-      body.listed = true;
-      body.before = body.nu;
-      swept_bodies_.push_back(static_cast<std::size_t>(place));
-    }
-  }
-  for (const std::size_t b : swept_bodies_) bodies_[b].listed = false;
-}
-
-/// Of the impulses of contact i; those of its bodies' velocities have been taken, which saves pushing them.
-template <int Dim>
-void ContactSweeps<Dim>::take_step(std::size_t i) {
-  const Impulse step = contact_courses_[i].step(acceleration_).template cast<double>();
-  contacts_[i].y += step.template head<kFriction>();
-  contacts_[i].p += step[kFriction];
-}
-
-template <int Dim>
-void ContactSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<const std::size_t> contacts,
-                               std::span<const std::size_t> bodies, Eigen::VectorXd& z) const {
-  for (const std::size_t b : bodies) write_velocity(problem, b, z);
-  for (const std::size_t i : contacts) write_impulse(problem, i, z);
-}
-
 /// Geometry and gaps at z, and the velocities that its impulses lead to.
 template <int Dim>
 void ContactSweeps<Dim>::freeze_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z) {
-  bind(problem);
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    bodies_[b].nu = problem.free_velocity_of(static_cast<int>(b));
+  bodies_.resize(static_cast<std::size_t>(problem.moving_bodies()));
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const int place = static_cast<int>(b);
+    bodies_[b] = {problem.free_velocity_of(place), body_response(problem, place)};
+  }
+  contacts_.resize(problem.contacts().size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     problem.evaluate_state(i, z);
     freeze(problem, i, z);
@@ -178,31 +91,18 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i, 
   contact.place = problem.places(i);
   contact.normal = state.frame.normal;
   contact.tangents = state.frame.tangents;
-  // How velocities answer to an impulse at the contact and to a moment about its normal.
-  Matrix<Dim> response = Matrix<Dim>::Zero();
-  double turn = 0;
+  std::array<BodyResponse<Dim>, 2> responses{};
   Vector<Dim> moving = Vector<Dim>::Zero();  // velocity of body 1 against body 2 at z
   for (const std::size_t k : kSides) {
     contact.arm[k] = state.side[k].arm;
     if (contact.place[k] < 0) continue;
-    const Body& body = bodies_[static_cast<std::size_t>(contact.place[k])];
-    const auto arm = lever(contact.arm[k]);
-    response.diagonal().array() += body.inverse_mass;
-    response += arm * body.inverse_inertia * arm.transpose();
-    if constexpr (Dim == 3) turn += contact.normal.dot(body.inverse_inertia * contact.normal);
+    responses[k] = bodies_[static_cast<std::size_t>(contact.place[k])].response;
     const Vector<Dim> point = point_velocity<Dim>(
         z.template segment<kVelocity>(problem.layout().velocity(contact.place[k])), contact.arm[k]);
     moving += (k == 0 ? 1 : -1) * point;
   }
   contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.normal.dot(moving);
-  contact.normal_step = 1 / (contact.unit * contact.normal.dot(response * contact.normal));
-  const Eigen::Matrix<double, kTangent, kTangent> along =
-      contact.semi_axes.template head<kTangent>().asDiagonal() *
-      (contact.tangents.transpose() * response * contact.tangents) *
-      contact.semi_axes.template head<kTangent>().asDiagonal();
-  double largest = along.cwiseAbs().rowwise().sum().maxCoeff();
-  largest = std::max(largest, contact.semi_axes[kFriction - 1] * contact.semi_axes[kFriction - 1] * turn);
-  contact.friction_step = largest > 0 ? 1 / (contact.unit * largest) : 0.0;
+  contact.step = sweep_steps(problem, i, responses);
   const ContactLayout& at = problem.layout().contact(i);
   contact.p = std::max(0.0, z[at.normal]);
   contact.y = z.template segment<kFriction>(at.friction);
@@ -228,8 +128,8 @@ void ContactSweeps<Dim>::freeze_joints(const StepProblem<Dim>& problem, const Ei
         const Twist<Dim> wrench = -block_.j.col(r)
                                        .template segment<kVelocity>(block_.column[k])
                                        .cwiseQuotient(problem.momentum_scale(row.place[k]));
-        row.response[k] << body.inverse_mass * wrench.template head<Dim>(),
-            body.inverse_inertia * wrench.template tail<kAngular>();
+        row.response[k] << body.response.inverse_mass * wrench.template head<Dim>(),
+            body.response.inverse_inertia * wrench.template tail<kAngular>();
         row.constant -= row.gradient[k].dot(z.template segment<kVelocity>(kVelocity * row.place[k]));
         denominator += row.gradient[k].dot(row.response[k]);
       }
@@ -270,19 +170,18 @@ FrictionVector<Dim> ContactSweeps<Dim>::slip(const Contact& contact, const Twist
 
 /// Adds what a change of a contact's impulses does to its bodies' velocities.
 template <int Dim>
-void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change, bool only_moving) {
+void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
   const FrictionVector<Dim> friction = contact.semi_axes.cwiseProduct(change.template head<kFriction>());
   const Vector<Dim> force = contact.unit * (contact.tangents * friction.template head<kTangent>() +
                                             change[kFriction] * contact.normal);
   for (const std::size_t k : kSides) {
     if (contact.place[k] < 0) continue;
     Body& body = bodies_[static_cast<std::size_t>(contact.place[k])];
-    if (only_moving && !body.moves) continue;
     Angular<Dim> torque = moment(contact.arm[k], force);
     if constexpr (Dim == 3) torque += contact.unit * friction[2] * contact.normal;
     const double sign = k == 0 ? 1.0 : -1.0;
-    body.nu.template head<Dim>() += sign * body.inverse_mass * force;
-    body.nu.template tail<kAngular>() += sign * (body.inverse_inertia * torque);
+    body.nu.template head<Dim>() += sign * body.response.inverse_mass * force;
+    body.nu.template tail<kAngular>() += sign * (body.response.inverse_inertia * torque);
   }
 }
 
@@ -290,9 +189,9 @@ template <int Dim>
 void ContactSweeps<Dim>::sweep(Contact& contact) {
   const Twist<Dim> relative = relative_velocity(contact);
   const double approach = contact.gap_velocity + contact.normal.dot(relative.template head<Dim>());
-  const double p = std::max(0.0, contact.p - contact.normal_step * approach);
+  const double p = std::max(0.0, contact.p - contact.step.normal * approach);
   if (p == 0 && contact.p == 0 && contact.y == FrictionVector<Dim>::Zero()) return;  // most that are near
-  FrictionVector<Dim> y = contact.y - contact.friction_step * slip(contact, relative);
+  FrictionVector<Dim> y = contact.y - contact.step.friction * slip(contact, relative);
   const double length = y.norm();
   if (length > contact.mu * p) y *= contact.mu * p / length;
   Impulse change;

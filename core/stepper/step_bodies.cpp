@@ -18,9 +18,12 @@ template <int Dim>
 StepBodies<Dim>::StepBodies(const Scene<Dim>& scene)
     : scene_(scene),
       inertial_(scene.bodies.size()),
+      fixed_(scene.bodies.size()),
       place_(scene.bodies.size(), -1),
       turned_(scene.bodies.size()) {
   selected_.reserve(scene.bodies.size());
+  std::transform(scene.bodies.begin(), scene.bodies.end(), fixed_.begin(),
+                 [](const Body<Dim>& body) { return static_cast<char>(body.fixed); });
 }
 
 template <int Dim>

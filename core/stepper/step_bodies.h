@@ -80,7 +80,7 @@ class StepBodies {
     bool has_jacobian = false;
   };
 
-  [[nodiscard]] bool is_fixed(std::size_t body) const { return scene_.bodies[body].fixed; }
+  [[nodiscard]] bool is_fixed(std::size_t body) const { return fixed_[body] != 0; }
   [[nodiscard]] const Inertial& inertial(int place) const {
     return inertial_[static_cast<std::size_t>(selected_[static_cast<std::size_t>(place)])];
   }
@@ -92,6 +92,7 @@ class StepBodies {
   // Each of these has an entry for every body of the scene.
   std::vector<BodyState<Dim>> start_;
   std::vector<Inertial> inertial_;
+  std::vector<char> fixed_;  ///< close together, since each contact asks; the scene's bodies are large
   std::vector<int> place_;  ///< -1 for a fixed body; not meant for one that is not selected
   mutable std::vector<Turned> turned_;
   std::vector<int> selected_;

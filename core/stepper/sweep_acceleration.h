@@ -7,9 +7,9 @@ namespace touchstone {
 
 /// Accelerates an iteration x -> g(x) by steps that are added to g(x). f(x) = g(x) - x is its change.
 ///
-/// x is made of many blocks of a few entries. Each remembers the iterations itself: leaders, from whose
-/// changes this class finds how iterations are combined, and followers, which are combined in the same way.
-/// Use: begin(); then in each iteration record() of every block, decide(), and step() of every block.
+/// x is made of many blocks of a few entries. Each remembers the iterations itself; this class finds how they
+/// are combined. Use: begin(); then in each iteration record() of every block, decide(), and step() of every
+/// block.
 ///
 /// Memories are in single precision: they steer the iteration, and do not enter its fixed point.
 class SweepAcceleration {
@@ -43,13 +43,20 @@ class SweepAcceleration {
 
  public:
   template <int Entries>
-  class Follower {
+  class Block {
    public:
     using Short = Eigen::Matrix<float, Entries, 1>;
 
     /// @param change  of this block in this iteration
-    void record(const SweepAcceleration& all, const Short& change) {
-      if (all.combines()) results_.col(all.slot_) = move_ + (change - change_);
+    void record(SweepAcceleration& all, const Short& change) {
+      if (all.combines()) {
+        const Short difference = change - change_;
+        changes_.row(all.slot_) = difference.transpose();
+        results_.col(all.slot_) = move_ + difference;
+        all.column_ += (changes_ * difference).template cast<double>();
+        all.right_side_ += (changes_ * change).template cast<double>();
+      }
+      all.squared_ += static_cast<double>(change.squaredNorm());
       change_ = change;
     }
     /// What is to be added to this block. To be asked for once in an iteration.
@@ -63,29 +70,10 @@ class SweepAcceleration {
     [[nodiscard]] const Short& change() const { return change_; }
 
    private:
+    Eigen::Matrix<float, kDepth, Entries> changes_ = Eigen::Matrix<float, kDepth, Entries>::Zero();
     Eigen::Matrix<float, Entries, kDepth> results_ = Eigen::Matrix<float, Entries, kDepth>::Zero();
     Short change_ = Short::Zero();
     Short move_ = Short::Zero();  ///< change and step of the last iteration
-  };
-
-  template <int Entries>
-  class Leader : public Follower<Entries> {
-   public:
-    using typename Follower<Entries>::Short;
-
-    void record(SweepAcceleration& all, const Short& change) {
-      if (all.combines()) {
-        const Short difference = change - this->change();
-        changes_.row(all.slot_) = difference.transpose();
-        all.column_ += (changes_ * difference).template cast<double>();
-        all.right_side_ += (changes_ * change).template cast<double>();
-      }
-      all.squared_ += static_cast<double>(change.squaredNorm());
-      Follower<Entries>::record(all, change);
-    }
-
-   private:
-    Eigen::Matrix<float, kDepth, Entries> changes_ = Eigen::Matrix<float, kDepth, Entries>::Zero();
   };
 
   /// Forgets all iterations.

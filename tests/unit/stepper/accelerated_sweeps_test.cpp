@@ -1,0 +1,151 @@
+// AcceleratedSweeps against sweeps that are neither accelerated nor in single precision, and where what
+// changes is much smaller than what it is added to.
+#include "core/stepper/accelerated_sweeps.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+
+#include "core/stepper/contact_relaxation.h"
+#include "core/stepper/contact_sweeps.h"
+#include "core/stepper/implicit_stepper.h"
+
+namespace touchstone {
+namespace {
+
+using Kind = SweepAcceleration::Kind;
+
+constexpr double kStep = 0.01;  // [s]
+
+template <int Dim>
+Body<Dim> round_body(const Vector<Dim>& position, const Vector<Dim>& velocity) {
+  Body<Dim> body;
+  body.mass = 1 + position[0];
+  body.inertia = 0.4 * body.mass * Inertia<Dim>::Identity();
+  body.pose.position = position;
+  body.velocity.template head<Dim>() = velocity;
+  body.shape.geometry = Sphere<Dim>{1.0};
+  return body;
+}
+
+/// A round body that falls on two that lie on the ground beside each other, one of which is pushed on:
+/// contacts that stick, slide and open.
+template <int Dim>
+Scene<Dim> pile() {
+  Scene<Dim> scene;
+  scene.gravity = -9.81 * Vector<Dim>::Unit(Dim - 1);
+  scene.contact_law.mu = 0.3;
+  scene.contact_law.e_t = 0.9;
+  if constexpr (Dim == 3) scene.contact_law.e_r = 0.2;
+  const auto at = [](double x, double y, double z) {
+    Vector<Dim> place = Vector<Dim>::Zero();
+    place[0] = x;
+    if constexpr (Dim == 3) place[1] = y;
+    place[Dim - 1] = z;
+    return place;
+  };
+  scene.bodies = {round_body<Dim>(at(0, 0, 1), at(0.8, 0.1, 0)), round_body<Dim>(at(2, 0, 1), at(0, 0, 0)),
+                  round_body<Dim>(at(1.1, 0.1, 2.72), at(0.1, 0, -1))};
+  Body<Dim>& ground = scene.bodies.emplace_back();
+  ground.fixed = true;
+  ground.shape.geometry = HalfSpace<Dim>{};
+  for (Body<Dim>& body : scene.bodies) body.name = "body " + std::to_string(&body - scene.bodies.data());
+  return scene;
+}
+
+/// The pile's problem, and a point from which to sweep.
+template <int Dim>
+struct Fixture {
+  static constexpr int kVelocity = Dimension<Dim>::velocity;
+  Scene<Dim> scene = pile<Dim>();
+  ImplicitStepper<Dim> stepper{scene, {}};
+  StepProblem<Dim> problem{scene};
+  Eigen::VectorXd z;
+
+  Fixture() {
+    std::vector<BodyState<Dim>> state;
+    for (const Body<Dim>& body : scene.bodies) state.push_back({body.pose, body.velocity});
+    EXPECT_EQ(stepper.step(kStep).status, StepStatus::solved);
+    problem.begin(state, kStep);
+    problem.select(stepper.problem().bodies(), {}, stepper.problem().contacts());
+    EXPECT_GE(contacts().size(), 4U);
+    z = Eigen::VectorXd::Zero(problem.size());
+    problem.free_velocity(z);
+    for (std::size_t i = 0; i < contacts().size(); ++i) {
+      problem.find_points(i, z);
+      z[problem.layout().contact(i).normal] = 0.1;  // so that momentum has to be restored as well
+      z[problem.layout().contact(i).friction] = -0.02;
+    }
+  }
+
+  [[nodiscard]] const std::vector<ContactPair<Dim>>& contacts() const { return problem.contacts(); }
+
+  /// Sweeps from z on the geometry there.
+  Eigen::VectorXd sweep(double size, double tolerance, Kind kind) {
+    AcceleratedSweeps<Dim> sweeps;
+    sweeps.bind(problem);
+    std::vector<Twist<Dim>> rows;
+    for (int b = 0; b < problem.moving_bodies(); ++b) rows.push_back(problem.momentum_row(b, z));
+    StepBlock<Dim> block;
+    for (std::size_t i = 0; i < contacts().size(); ++i) {
+      problem.evaluate_state(i, z);
+      sweeps.freeze(problem, i, z);
+      problem.contact_block(i, false, block);
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        if (block.place[k] >= 0)
+          rows[static_cast<std::size_t>(block.place[k])] +=
+              block.f.template segment<kVelocity>(block.column[k]);
+      }
+    }
+    std::vector<std::size_t> all(contacts().size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<std::size_t> bodies(rows.size());
+    std::iota(bodies.begin(), bodies.end(), std::size_t{0});
+    sweeps.start(all, size);
+    for (const std::size_t b : bodies) sweeps.restore_momentum(problem, b, rows[b]);
+    EXPECT_LT(sweeps.run(all, 10000, tolerance, kind), 10000);
+    Eigen::VectorXd result = z;
+    sweeps.write(problem, all, bodies, result);
+    return result;
+  }
+};
+
+template <typename D>
+class AcceleratedSweepsTest : public testing::Test {};
+using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(AcceleratedSweepsTest, Dimensions);
+
+TYPED_TEST(AcceleratedSweepsTest, EndWhereSweepsInDoublePrecisionEnd) {
+  Fixture<TypeParam::value> fixture;
+  Eigen::VectorXd expected = fixture.z;
+  ContactSweeps<TypeParam::value>().run(fixture.problem, 20000, expected);
+  ASSERT_GT((expected - fixture.z).cwiseAbs().maxCoeff(), 0.1);
+  for (const Kind kind : {Kind::anderson, Kind::conjugate_gradients}) {
+    const Eigen::VectorXd found = fixture.sweep(1, 1e-6, kind);
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-4);
+  }
+}
+
+/// Impulses of 0.1 m V and more in single precision would be off by 1e-9 and more.
+TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulses) {
+  Fixture<TypeParam::value> fixture;
+  ContactRelaxation<TypeParam::value> relaxation;
+  relaxation.run(fixture.problem, 1e-14, fixture.z);
+  ASSERT_LE(relaxation.residual(), 1e-14);
+  const Eigen::VectorXd solution = fixture.z;
+  double largest = 0;
+  for (std::size_t i = 0; i < fixture.contacts().size(); ++i) {
+    const ContactLayout& at = fixture.problem.layout().contact(i);
+    if (!(fixture.z[at.normal] > 1e-3)) continue;
+    largest = std::max(largest, fixture.z[at.normal]);
+    fixture.z[at.normal] += 1e-10;
+    fixture.z[at.friction] -= 0.5e-10;
+  }
+  ASSERT_GT(largest, 0.1);
+  const Eigen::VectorXd found = fixture.sweep(1e-10, 1e-15, Kind::anderson);
+  EXPECT_LT((found - solution).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+}  // namespace
+}  // namespace touchstone
