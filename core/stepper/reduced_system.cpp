@@ -26,7 +26,7 @@ void ReducedSystem::add(std::span<const Eigen::Index> unknown, std::span<const E
       const auto rows = static_cast<Eigen::Index>(end - begin);
       for (std::size_t c = 0; c < n; ++c) {
         double* __restrict const target = &matrix(place[begin], place[c]);
-        const double* __restrict const source = &block(unknown[begin], unknown[c]);
+        const double* __restrict const source = &block.coeffRef(unknown[begin], unknown[c]);
         for (Eigen::Index r = 0; r < rows; ++r) target[r] += source[r];
       }
     }
