@@ -127,8 +127,10 @@ TYPED_TEST(AcceleratedSweepsTest, EndWhereSweepsInDoublePrecisionEnd) {
   }
 }
 
-/// Impulses of 0.1 m V and more in single precision would be off by 1e-9 and more.
+/// Two digits of a change, as rounds need them. Impulses of 0.1 m V in single precision would be off by fifty
+/// times the change.
 TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulses) {
+  constexpr double kChange = 1e-10;
   Fixture<TypeParam::value> fixture;
   ContactRelaxation<TypeParam::value> relaxation;
   relaxation.run(fixture.problem, 1e-14, fixture.z);
@@ -139,12 +141,12 @@ TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulse
     const ContactLayout& at = fixture.problem.layout().contact(i);
     if (!(fixture.z[at.normal] > 1e-3)) continue;
     largest = std::max(largest, fixture.z[at.normal]);
-    fixture.z[at.normal] += 1e-10;
-    fixture.z[at.friction] -= 0.5e-10;
+    fixture.z[at.normal] += kChange;
+    fixture.z[at.friction] -= kChange / 2;
   }
   ASSERT_GT(largest, 0.1);
-  const Eigen::VectorXd found = fixture.sweep(1e-10, 1e-15, Kind::anderson);
-  EXPECT_LT((found - solution).cwiseAbs().maxCoeff(), 1e-13);
+  const Eigen::VectorXd found = fixture.sweep(kChange, 1e-5 * kChange, Kind::anderson);
+  EXPECT_LT((found - solution).cwiseAbs().maxCoeff(), 0.01 * kChange);
 }
 
 }  // namespace
