@@ -93,7 +93,7 @@ class StepBodies {
   std::vector<BodyState<Dim>> start_;
   std::vector<Inertial> inertial_;
   std::vector<char> fixed_;  ///< close together, since each contact asks; the scene's bodies are large
-  std::vector<int> place_;  ///< -1 for a fixed body; not meant for one that is not selected
+  std::vector<int> place_;   ///< -1 for a fixed body; not meant for one that is not selected
   mutable std::vector<Turned> turned_;
   std::vector<int> selected_;
 };
