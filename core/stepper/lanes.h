@@ -6,8 +6,8 @@
 
 /// Four numbers in single precision that are added and multiplied at once, in the vector types of the
 /// compilers: a vector of space with 0 behind it, or what else comes in fours. Eigen's products of fixed size
-/// go through memory where lanes change places, as in a cross product, which took four times as long in
-/// sweeps over contacts.
+/// go through memory where lanes change places, as in a cross product: sweeps over contacts took 1.8 times as
+/// long with them.
 namespace touchstone {
 
 using Lanes = float __attribute__((vector_size(16)));
