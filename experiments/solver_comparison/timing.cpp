@@ -13,15 +13,13 @@ double thread_seconds() {
 }
 
 double clock_seconds() {
-  static const double seconds = [] {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 1001; ++i) {
-      const double start = thread_seconds();
-      least = std::min(least, thread_seconds() - start);
-    }
-    return least;
-  }();
-  return seconds;
+  constexpr int kReadings = 5;
+  thread_local double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kReadings; ++i) {
+    const double start = thread_seconds();
+    least = std::min(least, thread_seconds() - start);
+  }
+  return least;
 }
 
 double median(std::vector<double> values) {

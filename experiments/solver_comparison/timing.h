@@ -8,15 +8,20 @@ namespace touchstone::solver_comparison {
 /// Processor time of the calling thread [s]: what others do on the machine at the same time does not count.
 [[nodiscard]] double thread_seconds();
 
-/// What reading the clock twice adds to a measurement [s].
+/// What reading the clock twice adds to a measurement [s]: the least seen so far, a few readings of now among
+/// it. A machine's pace changes; a value from slower times would take more than there is from a short one.
 [[nodiscard]] double clock_seconds();
 
-/// Processor time that `work` takes [s], >= 0.
+/// The least step of thread_seconds() [s].
+constexpr double kClockResolution = 1e-9;
+
+/// Processor time that `work` takes [s], a step of the clock at least: times are divided by.
 template <typename Work>
 double time_of(const Work& work) {
   const double start = thread_seconds();
   work();
-  return std::max(thread_seconds() - start - clock_seconds(), 0.0);
+  const double seconds = thread_seconds() - start;
+  return std::max(seconds - clock_seconds(), kClockResolution);
 }
 
 /// Time of one solve [s]: `first`, if that was longer than `enough`; else the least of so many repetitions by

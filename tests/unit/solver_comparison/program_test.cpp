@@ -98,7 +98,10 @@ TEST(SolverComparison, EveryStepOfATrajectoryIsSolvedByTheStepperAndBySiconos) {
   const Table ratios = read_csv(scratch / "out/trajectory_timing.csv");
   ASSERT_EQ(ratios.rows.size(),
             10u);  // two kinds of ours, two pairs of starts, and elimination's third; all scenes
-  for (const Row& row : ratios.rows) EXPECT_EQ(cell(ratios, row, "median_ratio").empty(), !with_siconos);
+  for (const Row& row : ratios.rows) {
+    EXPECT_EQ(cell(ratios, row, "median_ratio").empty(), !with_siconos)
+        << cell(ratios, row, "method") << " from the start " << cell(ratios, row, "start");
+  }
   EXPECT_EQ(run.out.find("all scenes") != std::string::npos, with_siconos);
 }
 

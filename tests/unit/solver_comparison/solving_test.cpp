@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "experiments/solver_comparison/timing.h"
+
 namespace touchstone::solver_comparison {
 namespace {
 
@@ -53,6 +55,11 @@ TEST(Measure, ALongSolveIsNotRepeated) {
   const Answer answer = measure(hundredth(asked), 1e-3, 1e-1, 0.5);
   EXPECT_EQ(asked.size(), 1u);
   EXPECT_EQ(answer.solve_s, 1.0);
+}
+
+/// Ratios of times divide by them, so that none may be zero, however short and whatever the machine's pace.
+TEST(Timing, NothingTakesLongerThanNoTime) {
+  for (int i = 0; i < 1000; ++i) EXPECT_GE(time_of([] {}), kClockResolution);
 }
 
 TEST(Combine, AddsTheStepsOfATrajectory) {
