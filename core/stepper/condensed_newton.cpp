@@ -35,10 +35,13 @@ constexpr double kDecrease = 1e-4;       ///< Armijo's
 constexpr double kTarget = 0.05;         ///< of the tolerance: where a search that still gains ends
 constexpr double kWorthwhile = 0.1;      ///< factor of the residual that counts as a gain
 constexpr int kIdle = 3;  ///< steps without a gain within what rounding explains that end a search
-/// Below this residual the last factors are used once more: their step then gains as much as a new one would.
-constexpr double kChordBelow = 1e-6;
-constexpr double kChordGain = 0.03;  ///< factor of the residual that such a step must bring
-constexpr int kMonotoneAfter = 8;    ///< steps of a line search
+/// Below this residual the last factors are used once more, which costs less than half of a Newton step.
+constexpr double kChordBelow = 1e-5;
+/// Factor of the residual that such a step must bring. What a Newton step leaves is mostly in the rows of
+/// closest points, lengths that are small for the velocities they stand for; it then goes over to the
+/// momentum rows, so that the first of these steps gains more than the residual tells.
+constexpr double kChordGain = 0.5;
+constexpr int kMonotoneAfter = 8;  ///< steps of a line search
 
 }  // namespace
 
