@@ -8,17 +8,6 @@ namespace {
 
 constexpr std::array<std::size_t, 2> kSides = {0, 1};
 
-/// What point_velocity() and lever() are for, without their matrices: these lines are where sweeps spend
-/// time.
-Vector<2> turning(const Angular<2>& omega, const Vector<2>& r) {
-  return {-omega[0] * r.y(), omega[0] * r.x()};
-}
-Vector<3> turning(const Angular<3>& omega, const Vector<3>& r) { return omega.cross(r); }
-Angular<2> moment(const Vector<2>& r, const Vector<2>& force) {
-  return Angular<2>(r.x() * force.y() - r.y() * force.x());
-}
-Angular<3> moment(const Vector<3>& r, const Vector<3>& force) { return r.cross(force); }
-
 }  // namespace
 
 template <int Dim>
@@ -147,7 +136,7 @@ Twist<Dim> ContactSweeps<Dim>::relative_velocity(const Contact& contact) const {
     if (contact.place[k] < 0) continue;
     const Twist<Dim>& nu = bodies_[static_cast<std::size_t>(contact.place[k])].nu;
     const Angular<Dim> omega = nu.template tail<kAngular>();
-    const Vector<Dim> velocity = nu.template head<Dim>() + turning(omega, contact.arm[k]);
+    const Vector<Dim> velocity = point_velocity<Dim>(nu, contact.arm[k]);
     if (k == 0) {
       relative.template head<Dim>() = velocity;
       relative.template tail<kAngular>() = omega;
