@@ -38,16 +38,7 @@ void distance_gap_row(const RowContext<Dim, Derivative>& c) {
   d.template frame<1>(c.at.normal, per_length * c.state.separation.transpose());
 }
 
-/// w = E v_f / V: slip along t (and o) and spin about n, times the semi-axes.
-template <int Dim, typename Derivative>
-FrictionVector<Dim> scaled_slip(const RowContext<Dim, Derivative>& c) {
-  FrictionVector<Dim> v;
-  v.template head<Dim - 1>() = c.state.frame.tangents.transpose() * c.state.slip_velocity;
-  if constexpr (Dim == 3) v[2] = c.state.frame.normal.dot(c.state.spin_velocity);
-  return c.prepared.semi_axes.cwiseProduct(v) / c.options.scale.velocity;
-}
-
-/// Adds coefficient * d w to `row`, with d w through slip velocity, contact points and frame.
+/// Adds coefficient * d w to `row`, w = E v_f / V, with d w through slip velocity, contact points and frame.
 template <int R, int Dim, typename Derivative>
 void slip_derivative(const RowContext<Dim, Derivative>& c, Eigen::Index row,
                      const Eigen::Matrix<double, R, Dimension<Dim>::friction>& coefficient) {
@@ -83,9 +74,12 @@ void friction_law_rows(const RowContext<Dim, Derivative>& c) {
   using Scalar = Eigen::Matrix<double, 1, 1>;
   constexpr int n = Dimension<Dim>::friction;
   const auto& state = c.state;
+  const FrictionVector<Dim> w =
+      scaled_slip(state.frame, c.prepared.semi_axes, state.slip_velocity, state.spin_velocity) /
+      c.options.scale.velocity;
   const auto evaluate = [&](auto law) {
-    const auto rows = law(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y,
-                          scaled_slip(c), state.p, state.s, c.options.smoothing);
+    const auto rows = law(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y, w,
+                          state.p, state.s, c.options.smoothing);
     c.f.template segment<n>(c.at.friction) = rows.value;
     c.f[c.at.slip] = rows.slip_value;
     return rows;
