@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <string>
 
 #include "core/stepper/contact_relaxation.h"
 #include "core/stepper/contact_sweeps.h"
 #include "core/stepper/implicit_stepper.h"
+#include "tests/support/pile.h"
 
 namespace touchstone {
 namespace {
@@ -18,47 +18,22 @@ using Kind = SweepAcceleration::Kind;
 
 constexpr double kStep = 0.01;  // [s]
 
+/// A ball that falls on two that lie on the ground beside each other, one of which is pushed on: contacts
+/// that stick, slide and open.
 template <int Dim>
-Body<Dim> round_body(const Vector<Dim>& position, const Vector<Dim>& velocity) {
-  Body<Dim> body;
-  body.mass = 1 + position[0];
-  body.inertia = 0.4 * body.mass * Inertia<Dim>::Identity();
-  body.pose.position = position;
-  body.velocity.template head<Dim>() = velocity;
-  body.shape.geometry = Sphere<Dim>{1.0};
-  return body;
-}
-
-/// A round body that falls on two that lie on the ground beside each other, one of which is pushed on:
-/// contacts that stick, slide and open.
-template <int Dim>
-Scene<Dim> pile() {
-  Scene<Dim> scene;
-  scene.gravity = -9.81 * Vector<Dim>::Unit(Dim - 1);
-  scene.contact_law.mu = 0.3;
-  scene.contact_law.e_t = 0.9;
-  if constexpr (Dim == 3) scene.contact_law.e_r = 0.2;
-  const auto at = [](double x, double y, double z) {
-    Vector<Dim> place = Vector<Dim>::Zero();
-    place[0] = x;
-    if constexpr (Dim == 3) place[1] = y;
-    place[Dim - 1] = z;
-    return place;
-  };
-  scene.bodies = {round_body<Dim>(at(0, 0, 1), at(0.8, 0.1, 0)), round_body<Dim>(at(2, 0, 1), at(0, 0, 0)),
-                  round_body<Dim>(at(1.1, 0.1, 2.72), at(0.1, 0, -1))};
-  Body<Dim>& ground = scene.bodies.emplace_back();
-  ground.fixed = true;
-  ground.shape.geometry = HalfSpace<Dim>{};
-  for (Body<Dim>& body : scene.bodies) body.name = "body " + std::to_string(&body - scene.bodies.data());
+Scene<Dim> three_balls() {
+  Scene<Dim> scene = pile<Dim>(
+      {ball(1.0, at<Dim>(0, 0, 1)), ball(3.0, at<Dim>(2, 0, 1)), ball(2.1, at<Dim>(1.1, 0.1, 2.72))});
+  scene.bodies[0].velocity.template head<Dim>() = at<Dim>(0.8, 0.1, 0);
+  scene.bodies[2].velocity.template head<Dim>() = at<Dim>(0.1, 0, -1);
   return scene;
 }
 
-/// The pile's problem, and a point from which to sweep.
+/// Their problem, and a point from which to sweep.
 template <int Dim>
 struct Fixture {
   static constexpr int kVelocity = Dimension<Dim>::velocity;
-  Scene<Dim> scene = pile<Dim>();
+  Scene<Dim> scene = three_balls<Dim>();
   ImplicitStepper<Dim> stepper{scene, {}};
   StepProblem<Dim> problem{scene};
   Eigen::VectorXd z;
