@@ -56,6 +56,38 @@ struct Fixture {
 
   [[nodiscard]] const std::vector<ContactPair<Dim>>& contacts() const { return problem.contacts(); }
 
+  /// Brings z to a solution.
+  void solve() {
+    ContactRelaxation<Dim> relaxation;
+    relaxation.run(problem, 1e-14, z);
+    EXPECT_LE(relaxation.residual(), 1e-14);
+  }
+
+  /// Changes the impulses in z of contacts that bear a load.
+  /// @return  the largest of the impulses
+  double disturb(double size) {
+    double largest = 0;
+    for (std::size_t i = 0; i < contacts().size(); ++i) {
+      const ContactLayout& at = problem.layout().contact(i);
+      if (!(z[at.normal] > 1e-3)) continue;
+      largest = std::max(largest, z[at.normal]);
+      z[at.normal] += size;
+      z[at.friction] -= size / 2;
+    }
+    return largest;
+  }
+
+  [[nodiscard]] double friction(std::size_t i, const Eigen::VectorXd& at) const {
+    return at.template segment<Dimension<Dim>::friction>(problem.layout().contact(i).friction).norm();
+  }
+
+  /// Gives contact i a coefficient of friction of its own.
+  void set_mu(std::size_t i, double mu) {
+    std::vector<ContactPair<Dim>> changed = contacts();
+    changed[i].law.mu = mu;
+    problem.select(stepper.problem().bodies(), {}, changed);
+  }
+
   /// Sweeps from z on the geometry there.
   Eigen::VectorXd sweep(double size, double tolerance, Kind kind) {
     AcceleratedSweeps<Dim> sweeps;
@@ -107,21 +139,44 @@ TYPED_TEST(AcceleratedSweepsTest, EndWhereSweepsInDoublePrecisionEnd) {
 TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulses) {
   constexpr double kChange = 1e-10;
   Fixture<TypeParam::value> fixture;
-  ContactRelaxation<TypeParam::value> relaxation;
-  relaxation.run(fixture.problem, 1e-14, fixture.z);
-  ASSERT_LE(relaxation.residual(), 1e-14);
+  fixture.solve();
   const Eigen::VectorXd solution = fixture.z;
-  double largest = 0;
-  for (std::size_t i = 0; i < fixture.contacts().size(); ++i) {
-    const ContactLayout& at = fixture.problem.layout().contact(i);
-    if (!(fixture.z[at.normal] > 1e-3)) continue;
-    largest = std::max(largest, fixture.z[at.normal]);
-    fixture.z[at.normal] += kChange;
-    fixture.z[at.friction] -= kChange / 2;
-  }
-  ASSERT_GT(largest, 0.1);
+  ASSERT_GT(fixture.disturb(kChange), 0.1);
   const Eigen::VectorXd found = fixture.sweep(kChange, 1e-5 * kChange, Kind::anderson);
   EXPECT_LT((found - solution).cwiseAbs().maxCoeff(), 0.01 * kChange);
+}
+
+/// A contact that sticks is given so much friction that it sticks with 1e-10 m V to spare, or slides for want
+/// of as much. Which of the two it is decides where sweeps end; a difference of squares of impulses in single
+/// precision takes both for the same.
+TYPED_TEST(AcceleratedSweepsTest, TellSlidingFromStickingFarBelowSinglePrecisionOfImpulses) {
+  constexpr int kDim = TypeParam::value;
+  constexpr double kChange = 1e-10;
+  Fixture<kDim> solved;
+  solved.solve();
+  int tried = 0;
+  for (std::size_t i = 0; i < solved.contacts().size(); ++i) {
+    const double p = solved.z[solved.problem.layout().contact(i).normal];
+    const double sticking = solved.friction(i, solved.z);
+    if (!(sticking > 0.01 * p && sticking < 0.9 * solved.contacts()[i].law.mu * p)) continue;
+    ++tried;
+    for (const double margin : {kChange, -kChange}) {
+      Fixture<kDim> fixture;
+      fixture.z = solved.z;
+      fixture.set_mu(i, (sticking + margin) / p);
+      fixture.disturb(kChange);
+      Eigen::VectorXd expected = fixture.z;
+      ContactSweeps<kDim>().run(fixture.problem, 20000, expected);
+      const double left =
+          fixture.contacts()[i].law.mu * expected[fixture.problem.layout().contact(i).normal] -
+          fixture.friction(i, expected);
+      EXPECT_NEAR(left, std::max(margin, 0.0), 0.01 * kChange) << "contact " << i;
+      const Eigen::VectorXd found = fixture.sweep(kChange, 1e-5 * kChange, Kind::anderson);
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 0.01 * kChange)
+          << "contact " << i << (margin > 0 ? " sticks" : " slides");
+    }
+  }
+  EXPECT_GT(tried, 0);
 }
 
 }  // namespace
