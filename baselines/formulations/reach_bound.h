@@ -54,7 +54,7 @@ class ReachBound {
   [[nodiscard]] double least_turn(const Angular<Dim>& axis) const;
   /// Least rate of the gap of a vertex at `arm` from the centre of mass, [m/s].
   [[nodiscard]] double least_gap_rate(const Vector<Dim>& normal, const Vector<Dim>& arm) const {
-    return least_normal_speed(normal) + least_turn(lever(arm).transpose() * normal);
+    return least_normal_speed(normal) + least_turn(moment(arm, normal));
   }
 
  private:

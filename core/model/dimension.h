@@ -58,11 +58,26 @@ inline LeverMatrix<3> lever(const Vector<3>& r) {
   return c;
 }
 
+/// omega x r without the matrix of lever(): what an angular velocity [rad/s] adds to the velocity [m/s] of a
+/// point at `r` [m] from the centre of mass, world axes.
+inline Vector<2> turning(const Angular<2>& omega, const Vector<2>& r) {
+  return {-omega[0] * r.y(), omega[0] * r.x()};
+}
+inline Vector<3> turning(const Angular<3>& omega, const Vector<3>& r) { return omega.cross(r); }
+
+/// r x f without the matrix of lever(): moment [N m] about the centre of mass of a force [N] at `r` [m] from
+/// it, world axes; of an impulse [N s], its angular momentum [N m s]. One number in the plane, about z.
+inline Angular<2> moment(const Vector<2>& r, const Vector<2>& f) {
+  return Angular<2>(r.x() * f.y() - r.y() * f.x());
+}
+inline Angular<3> moment(const Vector<3>& r, const Vector<3>& f) { return r.cross(f); }
+
 /// Velocity [m/s] of the material point at `r` (world axes, from the centre of mass) of a body moving with
 /// `nu`.
 template <int Dim>
 Vector<Dim> point_velocity(const Twist<Dim>& nu, const Vector<Dim>& r) {
-  return nu.template head<Dim>() + lever(r) * nu.template tail<Dimension<Dim>::angular>();
+  const Angular<Dim> omega = nu.template tail<Dimension<Dim>::angular>();
+  return nu.template head<Dim>() + turning(omega, r);
 }
 
 /// The wrench [f; r x f] about the centre of mass of a force `f` at `r`.
@@ -70,7 +85,7 @@ template <int Dim>
 Twist<Dim> wrench(const Vector<Dim>& f, const Vector<Dim>& r) {
   Twist<Dim> w;
   w.template head<Dim>() = f;
-  w.template tail<Dimension<Dim>::angular>() = lever(r).transpose() * f;
+  w.template tail<Dimension<Dim>::angular>() = moment(r, f);
   return w;
 }
 

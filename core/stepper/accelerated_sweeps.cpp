@@ -43,12 +43,9 @@ void AcceleratedSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t
   contact.mu = static_cast<float>(mu);
   contact.normal = in_lanes(state.frame.normal);
   contact.along = in_lanes(prepared.semi_axes[0] * state.frame.tangents.col(0));
-  FrictionVector<Dim> w;
-  w.template head<Dim - 1>() = state.frame.tangents.transpose() * state.slip_velocity;
   if constexpr (Dim == 3) {
     contact.across = in_lanes(prepared.semi_axes[1] * state.frame.tangents.col(1));
     contact.spinning = static_cast<float>(prepared.semi_axes[2]);
-    w[2] = state.frame.normal.dot(state.spin_velocity);
   }
   std::array<BodyResponse<Dim>, 2> responses;
   for (const std::size_t k : kSides) {
@@ -62,7 +59,7 @@ void AcceleratedSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t
   start.y = z.template segment<kFriction>(at.friction);
   start.p = z[at.normal];
   start.radius = mu * start.p;
-  start.w = prepared.semi_axes.cwiseProduct(w);
+  start.w = scaled_slip(state.frame, prepared.semi_axes, state.slip_velocity, state.spin_velocity);
   start.gap = problem.separation(i) / problem.step_size();
   start.steps = sweep_steps(problem, i, responses);
 }

@@ -8,12 +8,6 @@ namespace {
 
 constexpr std::array<double, 2> kSign = {1.0, -1.0};  ///< impulses act on body 1, their opposites on body 2
 
-/// r x F.
-Angular<2> moment_of(const Vector<2>& r, const Vector<2>& force) {
-  return Angular<2>(r.x() * force.y() - r.y() * force.x());
-}
-Angular<3> moment_of(const Vector<3>& r, const Vector<3>& force) { return r.cross(force); }
-
 /// 0 <= p_n _|_ f(a_2) >= 0, Eq. 6.
 template <int Dim, typename Derivative>
 void workspace_gap_row(const RowContext<Dim, Derivative>& c) {
@@ -44,16 +38,7 @@ void distance_gap_row(const RowContext<Dim, Derivative>& c) {
   d.template frame<1>(c.at.normal, per_length * c.state.separation.transpose());
 }
 
-/// w = E v_f / V: slip along t (and o) and spin about n, times the semi-axes.
-template <int Dim, typename Derivative>
-FrictionVector<Dim> scaled_slip(const RowContext<Dim, Derivative>& c) {
-  FrictionVector<Dim> v;
-  v.template head<Dim - 1>() = c.state.frame.tangents.transpose() * c.state.slip_velocity;
-  if constexpr (Dim == 3) v[2] = c.state.frame.normal.dot(c.state.spin_velocity);
-  return c.prepared.semi_axes.cwiseProduct(v) / c.options.scale.velocity;
-}
-
-/// Adds coefficient * d w to `row`, with d w through slip velocity, contact points and frame.
+/// Adds coefficient * d w to `row`, w = E v_f / V, with d w through slip velocity, contact points and frame.
 template <int R, int Dim, typename Derivative>
 void slip_derivative(const RowContext<Dim, Derivative>& c, Eigen::Index row,
                      const Eigen::Matrix<double, R, Dimension<Dim>::friction>& coefficient) {
@@ -89,9 +74,12 @@ void friction_law_rows(const RowContext<Dim, Derivative>& c) {
   using Scalar = Eigen::Matrix<double, 1, 1>;
   constexpr int n = Dimension<Dim>::friction;
   const auto& state = c.state;
+  const FrictionVector<Dim> w =
+      scaled_slip(state.frame, c.prepared.semi_axes, state.slip_velocity, state.spin_velocity) /
+      c.options.scale.velocity;
   const auto evaluate = [&](auto law) {
-    const auto rows = law(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y,
-                          scaled_slip(c), state.p, state.s, c.options.smoothing);
+    const auto rows = law(c.options.form, c.pair.law.mu, c.prepared.rho, c.prepared.active, state.y, w,
+                          state.p, state.s, c.options.smoothing);
     c.f.template segment<n>(c.at.friction) = rows.value;
     c.f[c.at.slip] = rows.slip_value;
     return rows;
@@ -140,14 +128,15 @@ void momentum_rows(const RowContext<Dim, Derivative>& c) {
     const double linear = -kSign[k] * body.row_scale[0];
     const double angular = -kSign[k] * body.row_scale[Dim];
     c.f.template segment<Dim>(row) += linear * force;
-    c.f.template segment<kAngular>(row + Dim) += angular * moment_of(state.side[k].arm, force);
+    c.f.template segment<kAngular>(row + Dim) += angular * moment(state.side[k].arm, force);
     if constexpr (Dim == 3) c.f.template segment<3>(row + 3) += angular * friction[2] * frame.normal;
     if (c.derivative == nullptr) continue;
 
     auto& d = *c.derivative;
-    const Eigen::Matrix<double, kAngular, Dim> moment = lever(state.side[k].arm).transpose();  // F -> r x F
+    const Eigen::Matrix<double, kAngular, Dim> to_moment =
+        lever(state.side[k].arm).transpose();  // F -> r x F
     d.template frame<Dim>(row, linear * force_on_normal);
-    Eigen::Matrix<double, kAngular, Dim> moment_on_normal = moment * force_on_normal;
+    Eigen::Matrix<double, kAngular, Dim> moment_on_normal = to_moment * force_on_normal;
     if constexpr (Dim == 3) moment_on_normal += friction[2] * Matrix<3>::Identity();
     d.template frame<kAngular>(row + Dim, angular * moment_on_normal);
     const Eigen::Matrix<double, kAngular, Dim> on_arm =
@@ -155,11 +144,11 @@ void momentum_rows(const RowContext<Dim, Derivative>& c) {
     d.template point<kAngular>(row + Dim, k, on_arm);
     d.template centre<kAngular>(row + Dim, k, -on_arm);
     d.template impulse<Dim, 1>(row, c.at.normal, linear * unit * frame.normal);
-    d.template impulse<kAngular, 1>(row + Dim, c.at.normal, angular * unit * (moment * frame.normal));
+    d.template impulse<kAngular, 1>(row + Dim, c.at.normal, angular * unit * (to_moment * frame.normal));
     for (int i = 0; i < Dim - 1; ++i) {
       d.template impulse<Dim, 1>(row, c.at.friction + i, linear * per_y[i] * frame.tangents.col(i));
       d.template impulse<kAngular, 1>(row + Dim, c.at.friction + i,
-                                      angular * per_y[i] * (moment * frame.tangents.col(i)));
+                                      angular * per_y[i] * (to_moment * frame.tangents.col(i)));
     }
     if constexpr (Dim == 3)
       d.template impulse<3, 1>(row + 3, c.at.friction + 2, angular * per_y[2] * frame.normal);

@@ -114,18 +114,6 @@ void multiplier_rows(const PointRows<Dim>& c) {
   }
 }
 
-/// omega x r.
-Vector<2> cross(const Angular<2>& omega, const Vector<2>& r) { return omega[0] * Vector<2>(-r.y(), r.x()); }
-Vector<3> cross(const Angular<3>& omega, const Vector<3>& r) { return omega.cross(r); }
-
-/// Of body k at its closest point, at the end of the step.
-template <int Dim>
-Vector<Dim> velocity_at(const ContactState<Dim>& state, std::size_t k) {
-  const Twist<Dim>& nu = state.body[k].nu;
-  const Angular<Dim> omega = nu.template tail<Dimension<Dim>::angular>();
-  return nu.template head<Dim>() + cross(omega, state.side[k].arm);
-}
-
 /// All of the rows that say where the closest points are, but those of multipliers.
 template <int Dim>
 void point_rows(const PointRows<Dim>& c) {
@@ -155,7 +143,8 @@ void evaluate_contact(const ContactPair<Dim>& pair, const PreparedContact<Dim>& 
   }
   state.separation = state.side[0].point - state.side[1].point;
   constexpr int kAngular = Dimension<Dim>::angular;
-  state.slip_velocity = velocity_at(state, 0) - velocity_at(state, 1);
+  state.slip_velocity = point_velocity<Dim>(state.body[0].nu, state.side[0].arm) -
+                        point_velocity<Dim>(state.body[1].nu, state.side[1].arm);
   state.spin_velocity =
       state.body[0].nu.template tail<kAngular>() - state.body[1].nu.template tail<kAngular>();
   state.y = z.template segment<Dimension<Dim>::friction>(at.friction);

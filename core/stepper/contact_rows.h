@@ -88,6 +88,19 @@ struct ContactState {
   Matrix<Dim> frame_curvature = Matrix<Dim>::Zero();  ///< d n = this d xi_2 + d theta_2 x n (+ multipliers)
 };
 
+/// E v_f of Eq. 5: slip along t (and o) and, in space, spin about n, times friction's semi-axes [m/s].
+/// @param semi_axes  E: t, o, r; [-, -, m]
+/// @param slip       velocity of body 1 against body 2 at the contact, world axes [m/s]
+/// @param spin       angular velocity of body 1 against body 2, world axes [rad/s]; not read in the plane
+template <int Dim>
+FrictionVector<Dim> scaled_slip(const ContactFrame<Dim>& frame, const FrictionVector<Dim>& semi_axes,
+                                const Vector<Dim>& slip, const Angular<Dim>& spin) {
+  FrictionVector<Dim> v;
+  v.template head<Dimension<Dim>::tangent>() = frame.tangents.transpose() * slip;
+  if constexpr (Dim == 3) v[2] = frame.normal.dot(spin);
+  return semi_axes.cwiseProduct(v);
+}
+
 struct ContactRowOptions {
   FrictionForm form = FrictionForm::projection;
   GapFunction gap = GapFunction::workspace;

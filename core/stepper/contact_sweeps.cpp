@@ -8,17 +8,6 @@ namespace {
 
 constexpr std::array<std::size_t, 2> kSides = {0, 1};
 
-/// What point_velocity() and lever() are for, without their matrices: these lines are where sweeps spend
-/// time.
-Vector<2> turning(const Angular<2>& omega, const Vector<2>& r) {
-  return {-omega[0] * r.y(), omega[0] * r.x()};
-}
-Vector<3> turning(const Angular<3>& omega, const Vector<3>& r) { return omega.cross(r); }
-Angular<2> moment(const Vector<2>& r, const Vector<2>& force) {
-  return Angular<2>(r.x() * force.y() - r.y() * force.x());
-}
-Angular<3> moment(const Vector<3>& r, const Vector<3>& force) { return r.cross(force); }
-
 }  // namespace
 
 template <int Dim>
@@ -89,8 +78,7 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i, 
   contact.mu = problem.contacts()[i].law.mu;
   contact.semi_axes = problem.prepared(i).semi_axes;
   contact.place = problem.places(i);
-  contact.normal = state.frame.normal;
-  contact.tangents = state.frame.tangents;
+  contact.frame = state.frame;
   std::array<BodyResponse<Dim>, 2> responses{};
   Vector<Dim> moving = Vector<Dim>::Zero();  // velocity of body 1 against body 2 at z
   for (const std::size_t k : kSides) {
@@ -101,7 +89,7 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i, 
         z.template segment<kVelocity>(problem.layout().velocity(contact.place[k])), contact.arm[k]);
     moving += (k == 0 ? 1 : -1) * point;
   }
-  contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.normal.dot(moving);
+  contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.frame.normal.dot(moving);
   contact.step = sweep_steps(problem, i, responses);
   const ContactLayout& at = problem.layout().contact(i);
   contact.p = std::max(0.0, z[at.normal]);
@@ -147,7 +135,7 @@ Twist<Dim> ContactSweeps<Dim>::relative_velocity(const Contact& contact) const {
     if (contact.place[k] < 0) continue;
     const Twist<Dim>& nu = bodies_[static_cast<std::size_t>(contact.place[k])].nu;
     const Angular<Dim> omega = nu.template tail<kAngular>();
-    const Vector<Dim> velocity = nu.template head<Dim>() + turning(omega, contact.arm[k]);
+    const Vector<Dim> velocity = point_velocity<Dim>(nu, contact.arm[k]);
     if (k == 0) {
       relative.template head<Dim>() = velocity;
       relative.template tail<kAngular>() = omega;
@@ -159,26 +147,17 @@ Twist<Dim> ContactSweeps<Dim>::relative_velocity(const Contact& contact) const {
   return relative;
 }
 
-/// E v_f of Eq. 5.
-template <int Dim>
-FrictionVector<Dim> ContactSweeps<Dim>::slip(const Contact& contact, const Twist<Dim>& velocity) const {
-  FrictionVector<Dim> w;
-  w.template head<kTangent>() = contact.tangents.transpose() * velocity.template head<Dim>();
-  if constexpr (Dim == 3) w[2] = contact.normal.dot(velocity.template tail<3>());
-  return contact.semi_axes.cwiseProduct(w);
-}
-
 /// Adds what a change of a contact's impulses does to its bodies' velocities.
 template <int Dim>
 void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
   const FrictionVector<Dim> friction = contact.semi_axes.cwiseProduct(change.template head<kFriction>());
-  const Vector<Dim> force = contact.unit * (contact.tangents * friction.template head<kTangent>() +
-                                            change[kFriction] * contact.normal);
+  const Vector<Dim> force = contact.unit * (contact.frame.tangents * friction.template head<kTangent>() +
+                                            change[kFriction] * contact.frame.normal);
   for (const std::size_t k : kSides) {
     if (contact.place[k] < 0) continue;
     Body& body = bodies_[static_cast<std::size_t>(contact.place[k])];
     Angular<Dim> torque = moment(contact.arm[k], force);
-    if constexpr (Dim == 3) torque += contact.unit * friction[2] * contact.normal;
+    if constexpr (Dim == 3) torque += contact.unit * friction[2] * contact.frame.normal;
     const double sign = k == 0 ? 1.0 : -1.0;
     body.nu.template head<Dim>() += sign * body.response.inverse_mass * force;
     body.nu.template tail<kAngular>() += sign * (body.response.inverse_inertia * torque);
@@ -188,10 +167,12 @@ void ContactSweeps<Dim>::push(const Contact& contact, const Impulse& change) {
 template <int Dim>
 void ContactSweeps<Dim>::sweep(Contact& contact) {
   const Twist<Dim> relative = relative_velocity(contact);
-  const double approach = contact.gap_velocity + contact.normal.dot(relative.template head<Dim>());
+  const double approach = contact.gap_velocity + contact.frame.normal.dot(relative.template head<Dim>());
   const double p = std::max(0.0, contact.p - contact.step.normal * approach);
   if (p == 0 && contact.p == 0 && contact.y == FrictionVector<Dim>::Zero()) return;  // most that are near
-  FrictionVector<Dim> y = contact.y - contact.step.friction * slip(contact, relative);
+  const FrictionVector<Dim> slip = scaled_slip<Dim>(
+      contact.frame, contact.semi_axes, relative.template head<Dim>(), relative.template tail<kAngular>());
+  FrictionVector<Dim> y = contact.y - contact.step.friction * slip;
   const double length = y.norm();
   if (length > contact.mu * p) y *= contact.mu * p / length;
   Impulse change;

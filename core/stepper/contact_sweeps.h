@@ -30,7 +30,7 @@ class ContactSweeps {
   };
   struct Contact {
     std::array<int, 2> place{-1, -1};
-    Vector<Dim> normal = Vector<Dim>::Zero();
+    ContactFrame<Dim> frame;
     std::array<Vector<Dim>, 2> arm{};  ///< from the bodies' centres [m]
     double unit = 1.0;                 ///< of impulses, m V [N s]
     double gap_velocity = 0.0;         ///< psi / h less what nu' adds to it [m/s]
@@ -38,7 +38,6 @@ class ContactSweeps {
     FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
     double p = 0.0;
     double mu = 0.0;
-    Eigen::Matrix<double, Dim, kTangent> tangents = Eigen::Matrix<double, Dim, kTangent>::Zero();
     FrictionVector<Dim> semi_axes = FrictionVector<Dim>::Zero();
 
     [[nodiscard]] Impulse impulse() const { return (Impulse() << y, p).finished(); }
@@ -60,7 +59,6 @@ class ContactSweeps {
   void sweep(Contact& contact);
   void sweep(JointRow& row);
   [[nodiscard]] Twist<Dim> relative_velocity(const Contact& contact) const;
-  [[nodiscard]] FrictionVector<Dim> slip(const Contact& contact, const Twist<Dim>& velocity) const;
   void push(const Contact& contact, const Impulse& change);
   void write(const StepProblem<Dim>& problem, Eigen::VectorXd& z) const;
   void write_velocity(const StepProblem<Dim>& problem, std::size_t body, Eigen::VectorXd& z) const;

@@ -9,12 +9,6 @@ namespace {
 template <int Dim>
 using Coefficient = Eigen::Matrix<double, 1, Dimension<Dim>::velocity>;
 
-/// r x f as a scalar in the plane, a vector in space.
-template <int Dim>
-Angular<Dim> cross(const Vector<Dim>& r, const Vector<Dim>& f) {
-  return lever(r).transpose() * f;
-}
-
 /// One row at one state: phi, its gradient by the motion [dp; dtheta] of each body (world axes), and the
 /// derivative of gradient^T by these motions, block (i, j) = d gradient_i^T / d motion_j.
 template <int Dim>
@@ -84,14 +78,14 @@ RowState<Dim> angle_row(const JointRow<Dim>& row, const Directions<Dim>& at) {
   const Vector<Dim> u = at.rotation[0] * row.u_a;
   const Vector<Dim> d = at.rotation[1] * row.d_b;
   state.phi = u.dot(d);
-  const Angular<Dim> moment = cross<Dim>(u, d);
+  const Angular<Dim> on_a = moment(u, d);
   // d(u x d) = du x d + u x dd,  du = dtheta_a x u,  dd = dtheta_b x d.
   const Inertia<Dim> by_a = -lever(d).transpose() * lever(u);
   const Inertia<Dim> by_b = lever(u).transpose() * lever(d);
   for (std::size_t k = 0; k < 2; ++k) {
     const double sign = k == 0 ? 1 : -1;
     state.gradient[k].setZero();
-    state.gradient[k].template tail<kAngular>() = sign * moment;
+    state.gradient[k].template tail<kAngular>() = sign * on_a;
     for (std::size_t j = 0; j < 2; ++j) {
       state.second[k][j].setZero();
       state.second[k][j].template bottomRightCorner<kAngular, kAngular>() = sign * (j == 0 ? by_a : by_b);

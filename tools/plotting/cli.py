@@ -26,9 +26,17 @@ def arguments(argv):
 
 
 def draw(experiment, directory):
-    """All figures of an experiment: every one is rendered before the first is written."""
-    figures = {name: function(directory) for name, function in EXPERIMENTS[experiment].items()}
-    rendered = {name: render(figure) for name, figure in figures.items() if figure is not None}
+    """All figures of an experiment: every one is rendered before the first is written.
+
+    Each is closed once it is rendered: pyplot keeps what it has opened, and warns of more than 20.
+    """
+    rendered = {}
+    for name, function in EXPERIMENTS[experiment].items():
+        figure = function(directory)
+        if figure is None:
+            continue
+        rendered[name] = render(figure)
+        style.plt.close(figure)
     for name, files in rendered.items():
         for suffix, content in files.items():
             path = directory / f"{name}.{suffix}"

@@ -1,11 +1,14 @@
 """tools/plot on small tables of its own: the same bytes every time, and messages that name what is wrong."""
 
+import contextlib
 import csv
+import io
 import math
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parents[1]
@@ -88,6 +91,21 @@ class Plot(unittest.TestCase):
         for name, content in first.items():
             self.assertNotIn(b"Matplotlib v", content, name)
             self.assertNotIn(b"<dc:date>", content, name)
+
+    def test_leaves_no_figure_open(self):
+        from plotting import cli, style
+
+        open_before = []
+
+        def figure(_directory):
+            open_before.append(len(style.plt.get_fignums()))
+            return style.plt.figure()
+
+        table = {"some": {"first": figure, "second": figure}}
+        with unittest.mock.patch.object(cli, "EXPERIMENTS", table), contextlib.redirect_stdout(io.StringIO()):
+            cli.draw("some", self.directory)
+        self.assertEqual(open_before, [0, 0])
+        self.assertEqual(style.plt.get_fignums(), [])
 
     def test_missing_file(self):
         self.table.unlink()

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <string>
 
 #include "core/stepper/contact_relaxation.h"
 #include "core/stepper/contact_sweeps.h"
 #include "core/stepper/implicit_stepper.h"
+#include "tests/support/pile.h"
 
 namespace touchstone {
 namespace {
@@ -18,47 +18,22 @@ using Kind = SweepAcceleration::Kind;
 
 constexpr double kStep = 0.01;  // [s]
 
+/// A ball that falls on two that lie on the ground beside each other, one of which is pushed on: contacts
+/// that stick, slide and open.
 template <int Dim>
-Body<Dim> round_body(const Vector<Dim>& position, const Vector<Dim>& velocity) {
-  Body<Dim> body;
-  body.mass = 1 + position[0];
-  body.inertia = 0.4 * body.mass * Inertia<Dim>::Identity();
-  body.pose.position = position;
-  body.velocity.template head<Dim>() = velocity;
-  body.shape.geometry = Sphere<Dim>{1.0};
-  return body;
-}
-
-/// A round body that falls on two that lie on the ground beside each other, one of which is pushed on:
-/// contacts that stick, slide and open.
-template <int Dim>
-Scene<Dim> pile() {
-  Scene<Dim> scene;
-  scene.gravity = -9.81 * Vector<Dim>::Unit(Dim - 1);
-  scene.contact_law.mu = 0.3;
-  scene.contact_law.e_t = 0.9;
-  if constexpr (Dim == 3) scene.contact_law.e_r = 0.2;
-  const auto at = [](double x, double y, double z) {
-    Vector<Dim> place = Vector<Dim>::Zero();
-    place[0] = x;
-    if constexpr (Dim == 3) place[1] = y;
-    place[Dim - 1] = z;
-    return place;
-  };
-  scene.bodies = {round_body<Dim>(at(0, 0, 1), at(0.8, 0.1, 0)), round_body<Dim>(at(2, 0, 1), at(0, 0, 0)),
-                  round_body<Dim>(at(1.1, 0.1, 2.72), at(0.1, 0, -1))};
-  Body<Dim>& ground = scene.bodies.emplace_back();
-  ground.fixed = true;
-  ground.shape.geometry = HalfSpace<Dim>{};
-  for (Body<Dim>& body : scene.bodies) body.name = "body " + std::to_string(&body - scene.bodies.data());
+Scene<Dim> three_balls() {
+  Scene<Dim> scene = pile<Dim>(
+      {ball(1.0, at<Dim>(0, 0, 1)), ball(3.0, at<Dim>(2, 0, 1)), ball(2.1, at<Dim>(1.1, 0.1, 2.72))});
+  scene.bodies[0].velocity.template head<Dim>() = at<Dim>(0.8, 0.1, 0);
+  scene.bodies[2].velocity.template head<Dim>() = at<Dim>(0.1, 0, -1);
   return scene;
 }
 
-/// The pile's problem, and a point from which to sweep.
+/// Their problem, and a point from which to sweep.
 template <int Dim>
 struct Fixture {
   static constexpr int kVelocity = Dimension<Dim>::velocity;
-  Scene<Dim> scene = pile<Dim>();
+  Scene<Dim> scene = three_balls<Dim>();
   ImplicitStepper<Dim> stepper{scene, {}};
   StepProblem<Dim> problem{scene};
   Eigen::VectorXd z;
@@ -80,6 +55,38 @@ struct Fixture {
   }
 
   [[nodiscard]] const std::vector<ContactPair<Dim>>& contacts() const { return problem.contacts(); }
+
+  /// Brings z to a solution.
+  void solve() {
+    ContactRelaxation<Dim> relaxation;
+    relaxation.run(problem, 1e-14, z);
+    EXPECT_LE(relaxation.residual(), 1e-14);
+  }
+
+  /// Changes the impulses in z of contacts that bear a load.
+  /// @return  the largest of the impulses
+  double disturb(double size) {
+    double largest = 0;
+    for (std::size_t i = 0; i < contacts().size(); ++i) {
+      const ContactLayout& at = problem.layout().contact(i);
+      if (!(z[at.normal] > 1e-3)) continue;
+      largest = std::max(largest, z[at.normal]);
+      z[at.normal] += size;
+      z[at.friction] -= size / 2;
+    }
+    return largest;
+  }
+
+  [[nodiscard]] double friction(std::size_t i, const Eigen::VectorXd& at) const {
+    return at.template segment<Dimension<Dim>::friction>(problem.layout().contact(i).friction).norm();
+  }
+
+  /// Gives contact i a coefficient of friction of its own.
+  void set_mu(std::size_t i, double mu) {
+    std::vector<ContactPair<Dim>> changed = contacts();
+    changed[i].law.mu = mu;
+    problem.select(stepper.problem().bodies(), {}, changed);
+  }
 
   /// Sweeps from z on the geometry there.
   Eigen::VectorXd sweep(double size, double tolerance, Kind kind) {
@@ -132,21 +139,44 @@ TYPED_TEST(AcceleratedSweepsTest, EndWhereSweepsInDoublePrecisionEnd) {
 TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulses) {
   constexpr double kChange = 1e-10;
   Fixture<TypeParam::value> fixture;
-  ContactRelaxation<TypeParam::value> relaxation;
-  relaxation.run(fixture.problem, 1e-14, fixture.z);
-  ASSERT_LE(relaxation.residual(), 1e-14);
+  fixture.solve();
   const Eigen::VectorXd solution = fixture.z;
-  double largest = 0;
-  for (std::size_t i = 0; i < fixture.contacts().size(); ++i) {
-    const ContactLayout& at = fixture.problem.layout().contact(i);
-    if (!(fixture.z[at.normal] > 1e-3)) continue;
-    largest = std::max(largest, fixture.z[at.normal]);
-    fixture.z[at.normal] += kChange;
-    fixture.z[at.friction] -= kChange / 2;
-  }
-  ASSERT_GT(largest, 0.1);
+  ASSERT_GT(fixture.disturb(kChange), 0.1);
   const Eigen::VectorXd found = fixture.sweep(kChange, 1e-5 * kChange, Kind::anderson);
   EXPECT_LT((found - solution).cwiseAbs().maxCoeff(), 0.01 * kChange);
+}
+
+/// A contact that sticks is given so much friction that it sticks with 1e-10 m V to spare, or slides for want
+/// of as much. Which of the two it is decides where sweeps end; a difference of squares of impulses in single
+/// precision takes both for the same.
+TYPED_TEST(AcceleratedSweepsTest, TellSlidingFromStickingFarBelowSinglePrecisionOfImpulses) {
+  constexpr int kDim = TypeParam::value;
+  constexpr double kChange = 1e-10;
+  Fixture<kDim> solved;
+  solved.solve();
+  int tried = 0;
+  for (std::size_t i = 0; i < solved.contacts().size(); ++i) {
+    const double p = solved.z[solved.problem.layout().contact(i).normal];
+    const double sticking = solved.friction(i, solved.z);
+    if (!(sticking > 0.01 * p && sticking < 0.9 * solved.contacts()[i].law.mu * p)) continue;
+    ++tried;
+    for (const double margin : {kChange, -kChange}) {
+      Fixture<kDim> fixture;
+      fixture.z = solved.z;
+      fixture.set_mu(i, (sticking + margin) / p);
+      fixture.disturb(kChange);
+      Eigen::VectorXd expected = fixture.z;
+      ContactSweeps<kDim>().run(fixture.problem, 20000, expected);
+      const double left =
+          fixture.contacts()[i].law.mu * expected[fixture.problem.layout().contact(i).normal] -
+          fixture.friction(i, expected);
+      EXPECT_NEAR(left, std::max(margin, 0.0), 0.01 * kChange) << "contact " << i;
+      const Eigen::VectorXd found = fixture.sweep(kChange, 1e-5 * kChange, Kind::anderson);
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 0.01 * kChange)
+          << "contact " << i << (margin > 0 ? " sticks" : " slides");
+    }
+  }
+  EXPECT_GT(tried, 0);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "core/stepper/implicit_stepper.h"
+#include "tests/support/pile.h"
 
 namespace touchstone {
 namespace {
@@ -56,67 +57,45 @@ void expect_same_steps(const Scene<Dim>& scene, double size) {
   }
 }
 
-/// A plane, a ball or disc on it, and an ellipsoid on that: contacts of one moving body and of two.
+/// A ball on the ground and an ellipsoid on that: contacts of one moving body and of two.
 template <int Dim>
-Scene<Dim> pile() {
-  Scene<Dim> scene;
-  scene.gravity[Dim - 1] = -9.81;
+Scene<Dim> tower() {
+  Body<Dim> below = ball(3.0, at<Dim>(0, 0, 1));
+  Body<Dim> above = ball(1.5, at<Dim>(0, 0, 2.8));
+  above.shape.geometry = Ellipsoid<Dim>{at<Dim>(1.1, 1.1, 0.8)};
+  for (Body<Dim>* body : {&below, &above}) body->velocity.setConstant(0.1);
+  Scene<Dim> scene = pile<Dim>({below, above});
   scene.gravity[0] = 0.7;
-  scene.contact_law.mu = 0.3;
-  if constexpr (Dim == 3) {
-    scene.contact_law.e_o = 0.7;
-    scene.contact_law.e_r = 0.2;
-  }
-  Body<Dim> ground;
-  ground.name = "ground";
-  ground.fixed = true;
-  Vector<Dim> up = Vector<Dim>::Zero();
-  up[Dim - 1] = 1;
-  ground.shape = {HalfSpace<Dim>{up}};
-  Body<Dim> ball;
-  ball.name = "ball";
-  ball.mass = 3;
-  ball.pose.position = up;
-  ball.velocity.setConstant(0.1);
-  ball.shape = {Sphere<Dim>{1.0}};
-  Body<Dim> ellipsoid = ball;
-  ellipsoid.name = "ellipsoid";
-  ellipsoid.mass = 1.5;
-  ellipsoid.pose.position = 2.8 * up;
-  Vector<Dim> semi_axes = Vector<Dim>::Constant(1.1);
-  semi_axes[Dim - 1] = 0.8;
-  ellipsoid.shape = {Ellipsoid<Dim>{semi_axes}};
-  scene.bodies = {ground, ball, ellipsoid};
   return scene;
 }
 
-/// The same with a ball at rest in the place of the plane: both sides of each contact are curved.
+/// The same with a ball at rest in the place of the ground: both sides of each contact are curved.
 template <int Dim>
-Scene<Dim> pile_on_a_ball() {
-  Scene<Dim> scene = pile<Dim>();
-  scene.bodies[0].shape = {Sphere<Dim>{2.0}};
-  scene.bodies[0].pose.position[Dim - 1] = -2.0;
+Scene<Dim> tower_on_a_ball() {
+  Scene<Dim> scene = tower<Dim>();
+  scene.bodies.back().shape = {Sphere<Dim>{2.0}};
+  scene.bodies.back().pose.position[Dim - 1] = -2.0;
   return scene;
 }
 
-/// With a plane that moves and turns, and with it the normal.
+/// With ground that moves and turns, and with it the normal.
 template <int Dim>
-Scene<Dim> pile_on_a_moving_plane() {
-  Scene<Dim> scene = pile<Dim>();
-  scene.bodies[0].fixed = false;
-  scene.bodies[0].mass = 20;
-  scene.bodies[0].velocity.setConstant(0.2);
+Scene<Dim> tower_on_a_moving_plane() {
+  Scene<Dim> scene = tower<Dim>();
+  scene.bodies.back().fixed = false;
+  scene.bodies.back().mass = 20;
+  scene.bodies.back().velocity.setConstant(0.2);
   return scene;
 }
 
 TEST(CondensedSystem, NewtonStepsAreThoseOfTheFullProblem) {
   for (const double size : {1e-6, 1e-3, 1e-2}) {
-    expect_same_steps(pile<2>(), size);
-    expect_same_steps(pile_on_a_ball<2>(), size);
-    expect_same_steps(pile_on_a_moving_plane<2>(), size);
-    expect_same_steps(pile<3>(), size);
-    expect_same_steps(pile_on_a_ball<3>(), size);
-    expect_same_steps(pile_on_a_moving_plane<3>(), size);
+    expect_same_steps(tower<2>(), size);
+    expect_same_steps(tower_on_a_ball<2>(), size);
+    expect_same_steps(tower_on_a_moving_plane<2>(), size);
+    expect_same_steps(tower<3>(), size);
+    expect_same_steps(tower_on_a_ball<3>(), size);
+    expect_same_steps(tower_on_a_moving_plane<3>(), size);
   }
 }
 
