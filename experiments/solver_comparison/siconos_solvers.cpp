@@ -7,18 +7,18 @@
 #include <NumericsMatrix.h>
 #include <NumericsVerbose.h>
 #include <SolverOptions.h>
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <lcp_cst.h>
-#include <malloc.h>
 
 #include <cstdlib>
 #include <memory>
 
+#include "baselines/blas.h"
 #include "baselines/registry.h"
 #include "core/complementarity/residual.h"
 #include "core/model/errors.h"
 #include "experiments/solver_comparison/orthant_form.h"
+#include "experiments/solver_comparison/siconos_path_search.h"
 #include "experiments/solver_comparison/solving.h"
 #include "experiments/solver_comparison/timing.h"
 
@@ -79,23 +79,6 @@ void compute_jacobian(void* env, int, double* z, NumericsMatrix* jacobian) {
   static_cast<OrthantForm*>(env)->evaluate_jacobian(z, jacobian->matrix0);
 }
 
-/// For a solver that reads storage that it never wrote, so that its answers depend on what the process did
-/// before. With this all storage from malloc() is zero at first, as far as glibc lets one ask for that: what
-/// it keeps aside of small blocks that were freed would come back as it is, and is therefore used up (and
-/// lost, to a process that ends with its solves). The stack below is zero, too.
-void clear_future_storage() {
-  constexpr std::size_t kLargestKept = 1032, kStep = 16, kKeptOfEach = 7;
-  for (std::size_t size = 24; size <= kLargestKept; size += kStep) {
-    for (std::size_t i = 0; i < kKeptOfEach; ++i) {
-      void* volatile lost = std::malloc(size);
-      static_cast<void>(lost);
-    }
-  }
-  ::mallopt(M_PERTURB, 0xff);
-  volatile char stack[1 << 18];  // [bytes], more than a solve takes
-  for (volatile char& byte : stack) byte = 0;
-}
-
 /// How a solver is called.
 struct Setting {
   int id = 0;
@@ -106,7 +89,7 @@ struct Setting {
   bool preallocates = false;  ///< must make its workspace a part of the options
   /// What it keeps refers to itself in a way that its own clean-up does not survive.
   bool leaks_options = false;
-  bool reads_unwritten = false;  ///< see clear_future_storage()
+  bool forgets_first_f = false;  ///< see write_first_f()
 };
 
 /// Calls a driver of Siconos, all of which are called alike, for a problem in its own form.
@@ -117,10 +100,23 @@ class Driver {
 
   Driver(Function function, const Setting& setting) : function_(function), setting_(setting) {}
 
+  /// Makes ready what a solve needs, which is no part of its time.
+  /// @param start  of the solve
+  void prepare(Problem& problem, double tolerance, const Eigen::VectorXd& start) {
+    if (!options_ || !setting_.keeps_workspace) make_options();
+    options_->dparam[SICONOS_DPARAM_TOL] = tolerance;
+    other_.setZero(start.size());
+    if (setting_.forgets_first_f) {
+      x_ = start;
+      options_->iparam[SICONOS_IPARAM_MAX_ITER] = 0;
+      static_cast<void>(function_(&problem, x_.data(), other_.data(), options_.get()));
+      write_first_f(*options_, start, other_);
+      options_->iparam[SICONOS_IPARAM_MAX_ITER] = setting_.iterations;
+    }
+  }
+
   /// @param x  the start on entry
-  Answer operator()(Problem& problem, double tolerance, Eigen::VectorXd& x) {
-    prepare(tolerance);
-    other_.setZero(x.size());
+  Answer operator()(Problem& problem, Eigen::VectorXd& x) {
     int info = 0;
     Answer answer;
     answer.solve_s = time_of([&] { info = function_(&problem, x.data(), other_.data(), options_.get()); });
@@ -131,22 +127,18 @@ class Driver {
   }
 
  private:
-  void prepare(double tolerance) {
-    if (setting_.reads_unwritten) clear_future_storage();
-    if (!options_ || !setting_.keeps_workspace) {
-      if (setting_.leaks_options) static_cast<void>(options_.release());
-      options_.reset(solver_options_create(setting_.id));
-      options_->iparam[SICONOS_IPARAM_MAX_ITER] = setting_.iterations;
-      if (setting_.keeps_workspace || setting_.preallocates) options_->iparam[SICONOS_IPARAM_PREALLOC] = 1;
-    }
-    options_->dparam[SICONOS_DPARAM_TOL] = tolerance;
-    if (setting_.reads_unwritten) clear_future_storage();
+  void make_options() {
+    if (setting_.leaks_options) static_cast<void>(options_.release());
+    options_.reset(solver_options_create(setting_.id));
+    options_->iparam[SICONOS_IPARAM_MAX_ITER] = setting_.iterations;
+    if (setting_.keeps_workspace || setting_.preallocates) options_->iparam[SICONOS_IPARAM_PREALLOC] = 1;
   }
 
   Function function_;
   Setting setting_;
   OptionsPointer options_;
   Eigen::VectorXd other_;  ///< F, slack or velocities at x
+  Eigen::VectorXd x_;      ///< where no iteration is done
 };
 
 /// What a problem in Siconos's form is made of, and refers to.
@@ -163,9 +155,10 @@ struct Bound {
   /// One solve by the driver of a problem that refers to this.
   template <typename Problem>
   Answer solve(Driver<Problem>& driver, Problem& posed, double tolerance) {
+    driver.prepare(posed, tolerance, start);
     counting.restart();
     x = start;
-    Answer answer = driver(posed, tolerance, x);
+    Answer answer = driver(posed, x);
     answer.evaluations = counting.count();
     answer.residual = natural_residual(*problem, back ? form.to(x) : x).value;
     return answer;
@@ -210,8 +203,6 @@ Solving by_mcp(int id, const Task& task) {
 }
 
 Solving by_ncp(const char* name, const Task& task) {
-  const bool is_path_search = name == SICONOS_NCP_PATHSEARCH_STR;
-  if (is_path_search) clear_future_storage();
   auto bound = bind_function(task);
   if (bound->form.equations() > 0) throw Unsupported("the problem has equations");
   return solving<NonlinearComplementarityProblem>(
@@ -220,7 +211,7 @@ Solving by_ncp(const char* name, const Task& task) {
       {.id = solver_options_name_to_id(name),
        .preallocates = true,
        .leaks_options = true,
-       .reads_unwritten = is_path_search},
+       .forgets_first_f = name == SICONOS_NCP_PATHSEARCH_STR},
       [](Bound& posed) {
         return NonlinearComplementarityProblem{.n = static_cast<unsigned>(posed.form.size()),
                                                .compute_F = &compute_f,
@@ -262,13 +253,6 @@ constexpr FrictionSolver kFrictionSolvers[] = {
     {"siconos_fc3d_nsn_nm", SICONOS_FRICTION_3D_NSN_NM, false},
 };
 
-/// OpenBLAS, where that is what is loaded: threads cost more than they bring at these sizes.
-void use_one_thread() {
-  // POSIX makes the conversion of what dlsym() gives to a function's address a valid one.
-  if (void* symbol = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads"); symbol != nullptr)
-    reinterpret_cast<void (*)(int)>(symbol)(1);
-}
-
 Solving by_friction(const FrictionSolver& solver, const Task& task) {
   if (!task.frozen) throw Unsupported("it is no frictional contact problem");
   auto bound = std::make_shared<Bound>(task, false);
@@ -301,7 +285,7 @@ std::string siconos_version() { return find_method<3>("siconos_nsn").version(); 
 
 Answer solve_by_siconos(const std::string& solver, const Task& task) {
   numerics_set_verbose(0);
-  use_one_thread();
+  use_same_blas_everywhere();
   return measure_task(task, kTolerance, kLoosest, [&](const Task& one) { return bind(solver, one); });
 }
 
