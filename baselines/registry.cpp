@@ -7,6 +7,7 @@
 #include <array>
 #include <vector>
 
+#include "baselines/blas.h"
 #include "baselines/engines/engines.h"
 #include "baselines/formulations/extrapolated.h"
 #include "baselines/formulations/implicit_ncp.h"
@@ -46,8 +47,10 @@ std::span<const MethodEntry<Dim>> engine_entries(const engines::Rows& rows) {
   }
 }
 
+/// Once, before anybody can have made an engine: no thread is then within BLAS.
 template <int Dim>
 std::vector<MethodEntry<Dim>> sorted_table() {
+  use_same_blas_everywhere();
   std::vector<MethodEntry<Dim>> table(kFormulations<Dim>.begin(), kFormulations<Dim>.end());
   for (const auto& rows : engines::all_rows()) {
     const auto entries = engine_entries<Dim>(rows);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "baselines/blas.h"
 #include "baselines/engines/engines.h"
 #include "baselines/engines/loaded_library.h"
 #include "baselines/engines/read_back.h"
@@ -270,7 +269,6 @@ template <Solver solver>
 std::unique_ptr<Engine<3>> load(const Scene<3>& scene, OptionReader& read, Motion motion) {
   const Settings settings = read_settings(read, solver);
   read.finish();
-  use_same_blas_everywhere();
   return std::make_unique<SiconosWorld>(scene, settings, motion);
 }
 

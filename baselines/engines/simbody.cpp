@@ -1,4 +1,3 @@
-#include "baselines/blas.h"
 #include "baselines/engines/engines.h"
 #include "baselines/engines/simbody_world.h"
 #include "baselines/engines/spatial_engine.h"
@@ -31,7 +30,6 @@ std::unique_ptr<Engine<3>> load_rigid(const Scene<3>& scene, OptionReader& read,
   s.tolerance = read.number("tolerance", 1e-10, 1e-16, 1.0);
   s.proximity = read.number("proximity", 1e-6, 1e-12, 1.0);
   read.finish();
-  use_same_blas_everywhere();
   return std::make_unique<SimbodyEngine>(make_simbody_world(scene, s, motion));
 }
 
@@ -42,7 +40,6 @@ std::unique_ptr<Engine<3>> load_compliant(const Scene<3>& scene, OptionReader& r
   s.transition_velocity = read.number("transition_velocity", 1e-3, 1e-12, 1e3);
   s.accuracy = read.number("accuracy", 1e-6, 1e-15, 0.1);
   read.finish();
-  use_same_blas_everywhere();
   return std::make_unique<SimbodyEngine>(make_simbody_world(scene, s, motion));
 }
 
