@@ -150,13 +150,19 @@ Measures measures(const CaseRun<3>& run, const Scenario& scenario) {
           contact_measures(run, scenario), run.largest_penetration};
 }
 
+/// `value` over what the reference has of it, both of numbers about 1; a reference that is 0 is not better
+/// than these are rounded.
+double over(double value, double reference) {
+  return value / std::max(reference, std::numeric_limits<double>::epsilon());
+}
+
 /// The factors by which the run is worse than the reference.
 void set_factors(Record& record, const Measures& found, const Measures& reference) {
   record
       .set("error_over_ncp", largest_velocity_error(found.errors) / largest_velocity_error(reference.errors))
       .set("drift_over_ncp", found.drift / reference.drift)
-      .set("slip_over_ncp", found.contact.slip / reference.contact.slip)
-      .set("penetration_over_ncp", found.penetration / reference.penetration);
+      .set("slip_over_ncp", over(found.contact.slip, reference.contact.slip))
+      .set("penetration_over_ncp", over(found.penetration, reference.penetration));
 }
 
 // --- rows
