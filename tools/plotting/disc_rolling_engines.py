@@ -115,16 +115,20 @@ def energy_over_time(directory):
                (0, (1, 1.4)), 2.0)]
     for method, (colour, dash) in zip(CURVES, LOOKS_OF_CURVES):
         curves.append((method, table.where(method=method, edges=float(EDGES_OF_CURVES)), colour, dash, 1.5))
+    horizon = max(table.numbers("t_s"))
     ends, kept = [], []
     for label, rows, colour, dash, width in curves:
         if not len(rows):
             continue
         times, energies = rows.numbers("t_s"), rows.numbers("kinetic_J")
         axes.plot(times, energies, color=colour, linestyle=dash, linewidth=width)
-        ends.append((times[-1], energies[-1], label, colour, dash))
-        if label in CURVES:
+        failed = times[-1] < horizon
+        if failed:
+            axes.plot(times[-1], energies[-1], marker="x", markersize=7, markeredgewidth=2, color=colour)
+        ends.append((times[-1], energies[-1], label + (", then fails" if failed else ""), colour, dash))
+        if label in CURVES and not failed:
             kept.append(100 * energies[-1] / energies[0])
-    axes.set_xlim(0, max(end[0] for end in ends))
+    axes.set_xlim(0, horizon)
     axes.set_ylim(0, None)
     axes.set_xlabel("time t [s]")
     axes.set_ylabel("kinetic energy [J]")
