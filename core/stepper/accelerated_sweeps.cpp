@@ -11,6 +11,9 @@ constexpr std::array<std::size_t, 2> kSides = {0, 1};
 /// Least unit of changes, in those of the problem: squares of impulses of 1e5 over it are far from the
 /// largest number in single precision, and so are squares of changes of 1e-26 from the smallest.
 constexpr double kLeastSize = 1e-8;
+/// Of mu p: a shorter anchor counts as 0, which is less than single precision tells of friction that slides;
+/// mu p over its length might not be a number any more.
+constexpr double kLeastAnchor = 1e-7;
 
 }  // namespace
 
@@ -71,7 +74,8 @@ void AcceleratedSweeps<Dim>::start(std::span<const std::size_t> contacts, double
     Contact& contact = contacts_[i];
     const Start& start = starts_[i];
     const FrictionVector<Dim> stick = -start.steps.friction * start.w;
-    const FrictionVector<Dim> anchor = start.y + stick;
+    FrictionVector<Dim> anchor = start.y + stick;
+    if (anchor.norm() <= kLeastAnchor * start.radius) anchor.setZero();
     const double length = anchor.norm();
     const double part = length > 0 ? start.radius / length : 0.0;
     const auto step = static_cast<float>(start.steps.friction);

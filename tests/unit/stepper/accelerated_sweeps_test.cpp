@@ -134,6 +134,20 @@ TYPED_TEST(AcceleratedSweepsTest, EndWhereSweepsInDoublePrecisionEnd) {
   }
 }
 
+/// Friction and slip that are next to nothing have a direction, along which those of a contact that begins to
+/// slide would be told; in single precision that is lost, as the least normal number is 1e-38.
+TYPED_TEST(AcceleratedSweepsTest, BeginWhereFrictionIsNextToNothing) {
+  for (const double friction : {0.0, 1e-320, 1e-42, 1e-39, 1e-20, 1e-9}) {
+    Fixture<TypeParam::value> fixture;
+    for (std::size_t i = 0; i < fixture.contacts().size(); ++i)
+      fixture.z[fixture.problem.layout().contact(i).friction] = friction;
+    Eigen::VectorXd expected = fixture.z;
+    ContactSweeps<TypeParam::value>().run(fixture.problem, 20000, expected);
+    const Eigen::VectorXd found = fixture.sweep(1, 1e-6, Kind::anderson);
+    EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-4) << "friction " << friction;
+  }
+}
+
 /// Two digits of a change, as rounds need them. Impulses of 0.1 m V in single precision would be off by fifty
 /// times the change.
 TYPED_TEST(AcceleratedSweepsTest, ResolveChangesFarBelowSinglePrecisionOfImpulses) {
