@@ -1,11 +1,12 @@
 // Question: how do the time of a step and the memory grow with the number of contacts?
 // Success criterion: time in proportion to contacts^a with a <= 1.2, by least squares on the logarithms over
-// n = 30 ... 3000 spheres in a tray, where nothing but their number grows; every step solved, Eqs. 10-11 to
+// n = 10 ... 3000 spheres in a tray, where nothing but their number grows; every step solved, Eqs. 10-11 to
 // 1e-10 by the judge. In a cube heaps get deeper as well, and where they meet changes with n: its exponent is
-// told beside. Time is the processor's, the median over the second half of the steps of the fall, in which
-// the spheres meet; contacts, those with an impulse, are the mean over the same steps. Memory is the largest
-// resident set of the process that ran that n, with nothing else in it but scene, stepper and judge. The
-// table is another one on each machine and at each time.
+// told beside. A heap is one sample of many, and its steps may take half or twice the time of another's of as
+// many spheres, so there are several of each n. Time is the processor's, the median over the second half of
+// the steps of all of them, in which the spheres meet; contacts, those with an impulse, are the mean over the
+// same steps. Memory is the largest resident set of a process that ran one heap, with nothing else in it but
+// scene, stepper and judge. The table is another one on each machine and at each time.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -29,16 +30,29 @@ namespace {
 
 using namespace touchstone;
 
-constexpr double kStep = 0.01;           // [s]
-constexpr int kSteps = 20;               // as long as the default horizon of spheres_in_box
-constexpr int kLayers = 4;               // of the tray
-constexpr int kFirstOfFit = 30;          // spheres; below, floor and walls have most of the contacts
+constexpr double kStep = 0.01;      // [s]
+constexpr int kSteps = 20;          // as long as the default horizon of spheres_in_box
+constexpr int kLayers = 4;          // of the tray
+constexpr int kTimed = kSteps / 2;  // the later ones
+constexpr int kSpheres = 4000;      // of all heaps of one n together, if these are not too few or too many:
+constexpr int kFewestHeaps = 2;
+constexpr int kMostHeaps = 8;
 constexpr long kBytesOfKilobyte = 1024;  // ru_maxrss is in KiB
 
-/// What a process tells of its n: plain data, for it goes through a pipe.
+/// What a process tells of its heap: plain data, for it goes through a pipe.
+struct Heap {
+  int steps = 0;  ///< solved
+  int timed = 0;  ///< of them, those told of here:
+  std::array<double, kTimed> step_s{}, contacts{}, listed{}, iterations{};
+  double residual = 0.0;  ///< largest of all steps
+  double memory_bytes = 0.0;
+};
+
+/// Of all heaps of one n.
 struct Measured {
   int layers = 0;
   int spheres = 0;
+  int heaps = 0;
   int steps = 0;  ///< solved
   double contacts = 0.0;
   double listed = 0.0;
@@ -46,7 +60,9 @@ struct Measured {
   double step_s = 0.0;
   double slowest_s = 0.0;
   double residual = 0.0;
-  double memory_bytes = 0.0;
+  double memory_bytes = 0.0;  ///< of the largest
+
+  [[nodiscard]] int planned() const { return heaps * kSteps; }
 };
 
 double processor_time() {
@@ -65,17 +81,15 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-Measured measure(int layers, int spheres) {
+Heap measure(int layers, int spheres, int seed) {
   SpheresInBox box;
   box.spheres = spheres;
   box.layers = layers;
+  box.seed = static_cast<std::uint64_t>(seed);
   const Scene<3> scene = spheres_in_box_scene(box);
   ImplicitStepper<3> stepper(scene, {});
   const Judge<3> judge(scene);
-  Measured result;
-  result.layers = layers;
-  result.spheres = spheres;
-  std::vector<double> times, contacts, listed, iterations;
+  Heap heap;
   std::vector<BodyState<3>> before;
   for (int k = 0; k < kSteps; ++k) {
     before.assign(stepper.state().begin(), stepper.state().end());
@@ -83,16 +97,66 @@ Measured measure(int layers, int spheres) {
     const StepReport report = stepper.step(kStep);
     const double took = processor_time() - start;
     if (report.status != StepStatus::solved) break;
-    ++result.steps;
-    result.residual = std::max(
-        result.residual, judge.step_residual(before, stepper.state(), stepper.contacts(), kStep).largest());
-    if (k < kSteps / 2) continue;
-    times.push_back(took);
-    iterations.push_back(report.iterations);
-    listed.push_back(static_cast<double>(stepper.contacts().size()));
-    contacts.push_back(static_cast<double>(
+    ++heap.steps;
+    heap.residual = std::max(
+        heap.residual, judge.step_residual(before, stepper.state(), stepper.contacts(), kStep).largest());
+    if (k < kSteps - kTimed) continue;
+    const auto at = static_cast<std::size_t>(heap.timed++);
+    heap.step_s[at] = took;
+    heap.iterations[at] = report.iterations;
+    heap.listed[at] = static_cast<double>(stepper.contacts().size());
+    heap.contacts[at] = static_cast<double>(
         std::count_if(stepper.contacts().begin(), stepper.contacts().end(),
-                      [](const ContactImpulse<3>& contact) { return contact.normal_impulse > 0; })));
+                      [](const ContactImpulse<3>& contact) { return contact.normal_impulse > 0; }));
+  }
+  return heap;
+}
+
+/// In a process of its own, whose memory is then that heap's. @return none solved if it ended early
+Heap measure_apart(int layers, int spheres, int seed) {
+  Heap heap;
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return heap;
+  const pid_t child = fork();
+  if (child == 0) {
+    const Heap measured = measure(layers, spheres, seed);
+    const bool told = write(ends[1], &measured, sizeof measured) == static_cast<ssize_t>(sizeof measured);
+    _exit(told ? 0 : 1);
+  }
+  close(ends[1]);
+  if (child > 0) {
+    Heap told;
+    if (read(ends[0], &told, sizeof told) == static_cast<ssize_t>(sizeof told)) heap = told;
+    rusage used{};
+    int status = 0;
+    if (wait4(child, &status, 0, &used) == child)
+      heap.memory_bytes = static_cast<double>(used.ru_maxrss * kBytesOfKilobyte);
+  }
+  close(ends[0]);
+  return heap;
+}
+
+/// Heaps of n spheres, one after the other.
+Measured measure_all(int layers, int spheres) {
+  Measured result;
+  result.layers = layers;
+  result.spheres = spheres;
+  result.heaps = std::clamp(kSpheres / spheres, kFewestHeaps, kMostHeaps);
+  std::vector<double> times, contacts, listed, iterations;
+  for (int seed = 1; seed <= result.heaps; ++seed) {
+    const Heap heap = measure_apart(layers, spheres, seed);
+    fmt::print(".");
+    std::fflush(stdout);
+    result.steps += heap.steps;
+    result.residual = std::max(result.residual, heap.residual);
+    result.memory_bytes = std::max(result.memory_bytes, heap.memory_bytes);
+    const auto append = [&](const std::array<double, kTimed>& from, std::vector<double>& to) {
+      to.insert(to.end(), from.begin(), from.begin() + heap.timed);
+    };
+    append(heap.step_s, times);
+    append(heap.contacts, contacts);
+    append(heap.listed, listed);
+    append(heap.iterations, iterations);
   }
   if (!times.empty()) {
     result.contacts = mean(contacts);
@@ -101,32 +165,6 @@ Measured measure(int layers, int spheres) {
     result.step_s = median(times);
     result.slowest_s = *std::max_element(times.begin(), times.end());
   }
-  return result;
-}
-
-/// In a process of its own, whose memory is then that n's. @return none solved if it ended early
-Measured measure_apart(int layers, int spheres) {
-  Measured result;
-  result.layers = layers;
-  result.spheres = spheres;
-  std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return result;
-  const pid_t child = fork();
-  if (child == 0) {
-    const Measured measured = measure(layers, spheres);
-    const bool told = write(ends[1], &measured, sizeof measured) == static_cast<ssize_t>(sizeof measured);
-    _exit(told ? 0 : 1);
-  }
-  close(ends[1]);
-  if (child > 0) {
-    Measured told;
-    if (read(ends[0], &told, sizeof told) == static_cast<ssize_t>(sizeof told)) result = told;
-    rusage used{};
-    int status = 0;
-    if (wait4(child, &status, 0, &used) == child)
-      result.memory_bytes = static_cast<double>(used.ru_maxrss * kBytesOfKilobyte);
-  }
-  close(ends[0]);
   return result;
 }
 
@@ -157,19 +195,19 @@ std::string processor() {
 void add_rows(const char* box, const std::vector<Measured>& all, harness::Table& table) {
   std::vector<double> contacts, times;
   for (const Measured& m : all) {
-    if (m.spheres < kFirstOfFit || m.steps != kSteps) continue;
+    if (m.steps != m.planned()) continue;
     contacts.push_back(m.contacts);
     times.push_back(m.step_s);
   }
   const double slope = contacts.size() > 1 ? exponent(contacts, times) : NAN;
-  fmt::print("{}: time a step ~ contacts^{:.3f}, n >= {}\n", box, slope, kFirstOfFit);
+  fmt::print("{}: time a step ~ contacts^{:.3f}\n", box, slope);
   using harness::number_cell;
   for (const Measured& m : all) {
-    table.rows.push_back({box, number_cell(long{m.layers}), number_cell(long{m.spheres}),
-                          number_cell(long{kSteps}), number_cell(long{m.steps}), number_cell(m.contacts),
-                          number_cell(m.listed), number_cell(m.iterations), number_cell(m.step_s),
-                          number_cell(m.slowest_s), number_cell(m.memory_bytes), number_cell(m.residual),
-                          number_cell(slope), processor()});
+    table.rows.push_back(
+        {box, number_cell(long{m.layers}), number_cell(long{m.spheres}), number_cell(long{m.heaps}),
+         number_cell(long{m.planned()}), number_cell(long{m.steps}), number_cell(m.contacts),
+         number_cell(m.listed), number_cell(m.iterations), number_cell(m.step_s), number_cell(m.slowest_s),
+         number_cell(m.memory_bytes), number_cell(m.residual), number_cell(slope), processor()});
   }
 }
 
@@ -179,11 +217,9 @@ int main(int argc, char** argv) {
   if (argc < 2 || std::strcmp(argv[1], "--help") == 0) {
     fmt::print(
         "Usage: spheres_in_box_scaling DIR [N...]\n\nMeasures the time of a step and the memory of n spheres "
-        "in "
-        "a tray and in a cube, on a quiet machine, and writes DIR/scaling.csv.\n  N   numbers of spheres "
-        "(default: 10 30 "
-        "100 "
-        "300 1000 3000)\nExit codes: 0 done, 1 a step was not solved, 2 bad usage, 3 I/O.\n");
+        "in a tray and in a cube, in several heaps of each n, on a quiet machine, and writes "
+        "DIR/scaling.csv.\n  N   numbers of spheres (default: 10 30 100 300 1000 3000)\nExit codes: 0 done, "
+        "1 a step was not solved, 2 bad usage, 3 I/O.\n");
     return argc < 2 ? 2 : 0;
   }
   std::vector<int> sizes;
@@ -194,26 +230,31 @@ int main(int argc, char** argv) {
     return 2;
   }
   harness::Table table{
-      {"box", "layers", "spheres", "planned_steps", "steps", "contacts", "listed_contacts", "iterations",
-       "step_s", "slowest_step_s", "memory_bytes", "largest_residual", "exponent", "processor"},
+      {"box", "layers", "spheres", "heaps", "planned_steps", "steps", "contacts", "listed_contacts",
+       "iterations", "step_s", "slowest_step_s", "memory_bytes", "largest_residual", "exponent", "processor"},
       {}};
+  const std::filesystem::path folder = argv[1];
+  try {
+    harness::prepare_folder(folder);  // before minutes of measuring
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 3;
+  }
   bool solved = true;
   for (const int layers : {kLayers, 0}) {
     const char* const box = layers > 0 ? "tray" : "cube";
     std::vector<Measured> all;
     for (const int n : sizes) {
-      all.push_back(measure_apart(layers, n));
+      fmt::print("{}, n = {}: ", box, n);
+      all.push_back(measure_all(layers, n));
       const Measured& m = all.back();
-      fmt::print("{}, n = {}: {} of {} steps solved, {:.0f} contacts, {:.4g} s a step, {:.0f} MB\n", box, n,
-                 m.steps, kSteps, m.contacts, m.step_s, m.memory_bytes / 1e6);
-      std::fflush(stdout);
-      solved = solved && m.steps == kSteps;
+      fmt::print(" {} heaps, {} of {} steps solved, {:.0f} contacts, {:.4g} s a step, {:.0f} MB\n", m.heaps,
+                 m.steps, m.planned(), m.contacts, m.step_s, m.memory_bytes / 1e6);
+      solved = solved && m.steps == m.planned();
     }
     add_rows(box, all, table);
   }
   try {
-    const std::filesystem::path folder = argv[1];
-    harness::prepare_folder(folder);
     harness::write_files({{folder / "scaling.csv", harness::format_csv(table)}});
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -6,14 +6,12 @@ from . import style
 from .table import read_table
 
 COLUMNS = ["box", "spheres", "contacts", "step_s", "slowest_step_s", "memory_bytes", "largest_residual", "exponent"]
-FIRST_OF_FIT = 30  # spheres, as spheres_in_box_scaling has it
 BOXES = {"tray": (style.BLUE, "o", "tray, four layers deep"), "cube": (style.ORANGE, "s", "cube, as deep as wide")}
 
 
 def fit(rows, exponent):
-    """Ends of the line of least squares of the logarithms, of the rows that it was fitted to."""
-    points = [(c, t) for n, c, t in zip(*(rows.numbers(name) for name in ("spheres", "contacts", "step_s")))
-              if n >= FIRST_OF_FIT]
+    """Ends of the line of least squares of the logarithms."""
+    points = list(zip(rows.numbers("contacts"), rows.numbers("step_s")))
     factor = 1.0
     for c, t in points:
         factor *= (t / c ** exponent) ** (1 / len(points))
@@ -57,7 +55,7 @@ def scaling(directory):
     memory.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     residual = 10.0 ** math.ceil(math.log10(max(table.numbers("largest_residual"))))
     style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponents['tray']:.2f}",
-                   f"Spheres that fall together in a box, implicit NCP, h = 0.01 s, residual below {residual:.0e}; median of the "
-                   "second half of the steps.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
+                   f"Spheres that fall together in a box, implicit NCP, h = 0.01 s, residual below {residual:.0e}; median over the "
+                   "second half of the steps of several heaps.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
                    "where a step needs Newton's method.")
     return figure
