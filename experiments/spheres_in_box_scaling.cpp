@@ -2,11 +2,12 @@
 // Success criterion: time in proportion to contacts^a with a <= 1.2, by least squares on the logarithms over
 // n = 10 ... 3000 spheres in a tray, where nothing but their number grows; every step solved, Eqs. 10-11 to
 // 1e-10 by the judge. In a cube heaps get deeper as well, and where they meet changes with n: its exponent is
-// told beside. A heap is one sample of many, and its steps may take half or twice the time of another's of as
-// many spheres, so there are several of each n. Time is the processor's, the median over the second half of
-// the steps of all of them, in which the spheres meet; contacts, those with an impulse, are the mean over the
-// same steps. Memory is the largest resident set of a process that ran one heap, with nothing else in it but
-// scene, stepper and judge. The table is another one on each machine and at each time.
+// told beside. A heap is one sample of many, and its steps may take half or twice the time of another's of
+// as many spheres, so there are several of each n in trays, and one in cubes, some of which take minutes for
+// a step. Time is the processor's, the median over the second half of the steps of all of them, in which the
+// spheres meet; contacts, those with an impulse, are the mean over the same steps. Memory is the largest
+// resident set of a process that ran one heap, with nothing else in it but scene, stepper and judge. The
+// table is another one on each machine and at each time.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -34,7 +35,7 @@ constexpr double kStep = 0.01;      // [s]
 constexpr int kSteps = 20;          // as long as the default horizon of spheres_in_box
 constexpr int kLayers = 4;          // of the tray
 constexpr int kTimed = kSteps / 2;  // the later ones
-constexpr int kSpheres = 4000;      // of all heaps of one n together, if these are not too few or too many:
+constexpr int kSpheres = 4000;      // of all trays of one n together, if these are not too few or too many:
 constexpr int kFewestHeaps = 2;
 constexpr int kMostHeaps = 8;
 constexpr long kBytesOfKilobyte = 1024;  // ru_maxrss is in KiB
@@ -141,7 +142,7 @@ Measured measure_all(int layers, int spheres) {
   Measured result;
   result.layers = layers;
   result.spheres = spheres;
-  result.heaps = std::clamp(kSpheres / spheres, kFewestHeaps, kMostHeaps);
+  result.heaps = layers > 0 ? std::clamp(kSpheres / spheres, kFewestHeaps, kMostHeaps) : 1;
   std::vector<double> times, contacts, listed, iterations;
   for (int seed = 1; seed <= result.heaps; ++seed) {
     const Heap heap = measure_apart(layers, spheres, seed);
