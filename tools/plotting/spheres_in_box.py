@@ -55,7 +55,6 @@ def scaling(directory):
     memory.legend(frameon=False, fontsize=style.LABEL_POINTS, loc="upper left")
     residual = 10.0 ** math.ceil(math.log10(max(table.numbers("largest_residual"))))
     style.headline(figure, f"Time of a step grows with the number of contacts to the power {exponents['tray']:.2f}",
-                   f"Spheres that fall together in a box, implicit NCP, h = 0.01 s, residual below {residual:.0e}; median over the "
-                   "second half of the steps of several trays, and one cube.\nA cube grows in depth too, and its spheres meet later the more they are. Memory jumps "
-                   "where a step needs Newton's method.")
+                   f"Spheres that fall together in a box, implicit NCP, h = 0.01 s, residual below {residual:.0e}; median of the "
+                   "second half of the steps.\nSeveral trays of each n, and one cube, which grows in depth too. Memory and time jump where a step needs Newton's method.")
     return figure
