@@ -36,8 +36,7 @@ void AcceleratedSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
 
 template <int Dim>
 void AcceleratedSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i,
-                                    const Eigen::VectorXd& z) {
-  const ContactState<Dim>& state = problem.state(i);
+                                    const ContactState<Dim>& state, const Eigen::VectorXd& z) {
   const PreparedContact<Dim>& prepared = problem.prepared(i);
   const double mu = problem.contacts()[i].law.mu;
   const std::array<int, 2> place = problem.places(i);
@@ -63,8 +62,8 @@ void AcceleratedSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t
   start.p = z[at.normal];
   start.radius = mu * start.p;
   start.w = scaled_slip(state.frame, prepared.semi_axes, state.slip_velocity, state.spin_velocity);
-  start.gap = problem.separation(i) / problem.step_size();
-  start.steps = sweep_steps(problem, i, responses);
+  start.gap = state.distance() / problem.step_size();
+  start.steps = sweep_steps(problem, i, state, responses);
 }
 
 template <int Dim>

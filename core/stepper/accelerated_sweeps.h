@@ -21,9 +21,11 @@ class AcceleratedSweeps {
  public:
   /// Makes room for the problem's contacts and bodies.
   void bind(const StepProblem<Dim>& problem);
-  /// Freezes the geometry of contact i at z, where the problem evaluated it last; a round begins there.
+  /// Freezes the geometry of contact i at z; a round begins there.
+  /// @param state  of the contact at z
   /// @param z  with p >= 0, and y = 0 where p is
-  void freeze(const StepProblem<Dim>& problem, std::size_t i, const Eigen::VectorXd& z);
+  void freeze(const StepProblem<Dim>& problem, std::size_t i, const ContactState<Dim>& state,
+              const Eigen::VectorXd& z);
 
   /// Begins a round: nothing has changed yet.
   /// @param contacts  whose impulses may change

@@ -63,6 +63,7 @@ int ContactRelaxation<Dim>::run(StepProblem<Dim>& problem, double tolerance, Eig
     if (residual_ <= tolerance) take_up(problem, z);
   }
   if (!(residual_ <= tolerance)) take_up(problem, z);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) problem.evaluate_state(i, z);
   return rounds;
 }
 
@@ -71,8 +72,7 @@ template <int Dim>
 void ContactRelaxation<Dim>::take_up(StepProblem<Dim>& problem, Eigen::VectorXd& z) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!contacts_[i].left) continue;
-    problem.find_points(i, z);
-    evaluate(problem, i, z);
+    evaluate_anew(problem, i, z);
   }
   judge_all(problem, z);
 }
@@ -89,8 +89,7 @@ void ContactRelaxation<Dim>::relax(StepProblem<Dim>& problem, const Pace& pace, 
   sweeps_.write(problem, written_, chosen_, z);
   if (shortened) z = start_ + pace.part * (z - start_);
   for (const std::size_t i : touched_) {
-    problem.find_points(i, z);
-    evaluate(problem, i, z);
+    evaluate_anew(problem, i, z);
   }
   for (const std::size_t b : judged_) judge(problem, b, z);
   find_residual();
@@ -134,6 +133,8 @@ void ContactRelaxation<Dim>::bind(const StepProblem<Dim>& problem, Eigen::Vector
   contacts_.resize(problem.contacts().size());
   first_.assign(bodies_.size() + 1, 0);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    clear(problem, i, z);
+    problem.evaluate_state(i, z, state_);
     evaluate(problem, i, z);
     for (const int place : contacts_[i].place) {
       if (place >= 0) ++first_[static_cast<std::size_t>(place) + 1];
@@ -151,18 +152,30 @@ void ContactRelaxation<Dim>::bind(const StepProblem<Dim>& problem, Eigen::Vector
   judge_all(problem, z);
 }
 
-/// Rows of contact i at z; sigma = |w| is eliminated here.
+/// Closest points of contact i found anew at z, and its rows.
+template <int Dim>
+void ContactRelaxation<Dim>::evaluate_anew(StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) {
+  clear(problem, i, z);
+  problem.evaluate_anew(i, z, state_);
+  evaluate(problem, i, z);
+}
+
+/// Without load there is no friction.
+template <int Dim>
+void ContactRelaxation<Dim>::clear(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) const {
+  const ContactLayout& in_z = problem.layout().contact(i);
+  if (z[in_z.normal] > 0) return;
+  z[in_z.normal] = 0;
+  z.template segment<Dimension<Dim>::friction>(in_z.friction).setZero();
+}
+
+/// Rows of contact i at z, where state_ is; sigma = |w| is eliminated here.
 template <int Dim>
 void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) {
   Contact& contact = contacts_[i];
   const ContactLayout& in_z = problem.layout().contact(i);
-  if (!(z[in_z.normal] > 0)) {
-    z[in_z.normal] = 0;
-    z.template segment<Dimension<Dim>::friction>(in_z.friction).setZero();
-  }
-  problem.evaluate_state(i, z);
-  sweeps_.freeze(problem, i, z);
-  problem.contact_block(i, false, block_);
+  sweeps_.freeze(problem, i, state_, z);
+  problem.contact_block(i, state_, false, block_);
   contact.place = problem.places(i);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
     if (contact.place[k] >= 0)
@@ -171,10 +184,9 @@ void ContactRelaxation<Dim>::evaluate(const StepProblem<Dim>& problem, std::size
   z[in_z.slip] -= block_.f[block_.at.slip];
   const double p = z[in_z.normal];
   contact.loaded = p > 0;
-  contact.slack =
-      contact.loaded ? 0.0 : problem.separation(i) / (problem.step_size() * problem.scale().velocity);
+  contact.slack = contact.loaded ? 0.0 : state_.distance() / (problem.step_size() * problem.scale().velocity);
   contact.left = false;
-  contact.residual = problem.is_spurious(i) ? StepProblem<Dim>::kSpuriousResidual : 0.0;
+  contact.residual = problem.is_spurious(state_) ? StepProblem<Dim>::kSpuriousResidual : 0.0;
   const auto take = [&](double value) { contact.residual = larger(contact.residual, std::abs(value)); };
   for (Eigen::Index r = block_.own; r < block_.at.normal; ++r) take(block_.f[r]);
   take(std::min(p, block_.f[block_.at.normal]));

@@ -60,6 +60,8 @@ class ContactRelaxation {
   void relax(StepProblem<Dim>& problem, const Pace& pace, Eigen::VectorXd& z);
   void sweep(int limit, double tolerance);
   void narrow(double tolerance);
+  void evaluate_anew(StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
+  void clear(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z) const;
   void evaluate(const StepProblem<Dim>& problem, std::size_t i, Eigen::VectorXd& z);
   void judge_all(const StepProblem<Dim>& problem, const Eigen::VectorXd& z);
   void judge(const StepProblem<Dim>& problem, std::size_t b, const Eigen::VectorXd& z);
@@ -82,6 +84,7 @@ class ContactRelaxation {
   }
 
   AcceleratedSweeps<Dim> sweeps_;
+  ContactState<Dim> state_;  ///< of one contact after the other
   StepBlock<Dim> block_;
   std::vector<Contact> contacts_;
   std::vector<Body> bodies_;

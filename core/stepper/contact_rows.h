@@ -62,11 +62,11 @@ template <int Dim>
 struct PreparedContact {
   Vector<Dim> origin = Vector<Dim>::Zero();      ///< world point that positions are relative to
   Vector<Dim> reference = Vector<Dim>::UnitX();  ///< direction whose projection is t
-  std::array<PlaneAtStart<Dim>, 2> plane{};      ///< of a side that is a plane
   FrictionVector<Dim> semi_axes = FrictionVector<Dim>::Zero();  ///< E: t, o, r
   FrictionVector<Dim> active = FrictionVector<Dim>::Zero();     ///< 1 where E is not 0
   double mass = 1.0;                                            ///< m: unit of impulse is mass * V
   double rho = 1.0;                                             ///< of the projection form
+  std::array<PlaneAtStart<Dim>, 2> plane{};                     ///< of a side that is a plane
 };
 
 /// Everything about one contact at one z.
@@ -76,7 +76,7 @@ struct ContactState {
   std::array<BodyAtEnd<Dim>, 2> body{};
   ContactFrame<Dim> frame{};
   double normal_length = 1.0;                       ///< |N_2|; 1 unless body 2 is an intersection
-  Vector<Dim> separation = Vector<Dim>::Zero();     ///< a_1 - a_2
+  Vector<Dim> separation = Vector<Dim>::Zero();     ///< a_1 - a_2 [m]
   Vector<Dim> slip_velocity = Vector<Dim>::Zero();  ///< of body 1 against body 2 at the closest points [m/s]
   Angular<Dim> spin_velocity = Angular<Dim>::Zero();  ///< omega_1 - omega_2
   FrictionVector<Dim> y = FrictionVector<Dim>::Zero();
@@ -86,6 +86,9 @@ struct ContactState {
   // Filled by differentiate_contact() only, as are the sides' curvatures.
   FrameDerivative<Dim> frame_derivative{};
   Matrix<Dim> frame_curvature = Matrix<Dim>::Zero();  ///< d n = this d xi_2 + d theta_2 x n (+ multipliers)
+
+  /// psi [m]
+  [[nodiscard]] double distance() const { return frame.normal.dot(separation); }
 };
 
 /// E v_f of Eq. 5: slip along t (and o) and, in space, spin about n, times friction's semi-axes [m/s].

@@ -90,7 +90,7 @@ void ContactSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t i, 
     moving += (k == 0 ? 1 : -1) * point;
   }
   contact.gap_velocity = problem.separation(i) / problem.step_size() - contact.frame.normal.dot(moving);
-  contact.step = sweep_steps(problem, i, responses);
+  contact.step = sweep_steps(problem, i, state, responses);
   const ContactLayout& at = problem.layout().contact(i);
   contact.p = std::max(0.0, z[at.normal]);
   contact.y = z.template segment<kFriction>(at.friction);

@@ -20,7 +20,7 @@ StepBodies<Dim>::StepBodies(const Scene<Dim>& scene)
       inertial_(scene.bodies.size()),
       fixed_(scene.bodies.size()),
       place_(scene.bodies.size(), -1),
-      turned_(scene.bodies.size()) {
+      moving_(scene.bodies.size()) {
   selected_.reserve(scene.bodies.size());
   std::transform(scene.bodies.begin(), scene.bodies.end(), fixed_.begin(),
                  [](const Body<Dim>& body) { return static_cast<char>(body.fixed); });
@@ -33,7 +33,9 @@ void StepBodies<Dim>::begin(std::span<const BodyState<Dim>> state, double h, con
   for (std::size_t body = 0; body < start_.size(); ++body) {
     if (is_fixed(body)) continue;
     prepare(body, scale);
-    turned_[body] = {};
+    moving_[body] = {};
+    moving_[body].position = start_[body].pose.position;
+    moving_[body].row_scale = inertial_[body].row_scale;
   }
 }
 
@@ -109,8 +111,8 @@ Twist<Dim> StepBodies<Dim>::free_velocity(int place) const {
 }
 
 template <int Dim>
-auto StepBodies<Dim>::turned(std::size_t body, const Angular<Dim>& omega) const -> Turned& {
-  Turned& turned = turned_[body];
+auto StepBodies<Dim>::turned(std::size_t body, const Angular<Dim>& omega) const -> Moving& {
+  Moving& turned = moving_[body];
   if (turned.omega != omega) {
     turned.omega = omega;
     turned.rotation = start_[body].pose.rotation.turned(h_ * omega);
@@ -140,11 +142,23 @@ void StepBodies<Dim>::move_body(int body, const Vector<Dim>& origin, const Eigen
 }
 
 template <int Dim>
+void StepBodies<Dim>::place_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z,
+                                 BodyAtEnd<Dim>& end) const {
+  const auto index = static_cast<std::size_t>(body);
+  if (is_fixed(index)) {
+    start_body(body, origin, end);
+  } else {
+    end.row_scale = moving_[index].row_scale;
+    move_body(body, origin, z, end);
+  }
+}
+
+template <int Dim>
 void StepBodies<Dim>::differentiate_body(int body, BodyAtEnd<Dim>& end) const {
   const auto index = static_cast<std::size_t>(body);
   if (is_fixed(index)) return;
   const Angular<Dim> omega = end.nu.template tail<kAngular>();
-  Turned& turned = this->turned(index, omega);
+  Moving& turned = this->turned(index, omega);
   if (!turned.has_jacobian) {
     turned.jacobian = turn_jacobian(omega, h_);
     turned.has_jacobian = true;
@@ -163,9 +177,8 @@ Pose<Dim> StepBodies<Dim>::pose(int body, const Vector<Dim>& origin, const Eigen
 template <int Dim>
 Vector<Dim> StepBodies<Dim>::position(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const {
   const auto index = static_cast<std::size_t>(body);
-  const Vector<Dim> start = start_[index].pose.position - origin;
-  if (is_fixed(index)) return start;
-  return start + h_ * z.template segment<Dim>(kVelocity * place_[index]);
+  if (is_fixed(index)) return start_[index].pose.position - origin;
+  return moving_[index].position - origin + h_ * z.template segment<Dim>(kVelocity * place_[index]);
 }
 
 template <int Dim>

@@ -52,6 +52,8 @@ class StepBodies {
   void start_body(int body, const Vector<Dim>& origin, BodyAtEnd<Dim>& end) const;
   /// Moves a body that start_body() has set to q' = q (+) h nu' (Eq. 4).
   void move_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z, BodyAtEnd<Dim>& end) const;
+  /// Both, into an `end` that may have been another body's.
+  void place_body(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z, BodyAtEnd<Dim>& end) const;
   /// Fills d(theta)/d(omega') of a body that move_body() has moved.
   void differentiate_body(int body, BodyAtEnd<Dim>& end) const;
   [[nodiscard]] Pose<Dim> pose(int body, const Vector<Dim>& origin, const Eigen::VectorXd& z) const;
@@ -62,6 +64,7 @@ class StepBodies {
  private:
   static constexpr int kVelocity = Dimension<Dim>::velocity;
   static constexpr int kAngular = Dimension<Dim>::angular;
+  static constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
   struct Inertial {
     double mass = 1.0;
@@ -70,11 +73,12 @@ class StepBodies {
     Twist<Dim> momentum = Twist<Dim>::Zero();  ///< M nu + p_app + p_vp
     Twist<Dim> row_scale = Twist<Dim>::Zero();
   };
-  /// How a body has turned by the end of the step, kept from one asker to the next: each contact of a body
-  /// asks, mostly with the same omega'.
-  struct Turned {
-    Angular<Dim> omega =
-        Angular<Dim>::Constant(std::numeric_limits<double>::quiet_NaN());  ///< omega' it is for
+  /// What each contact of a moving body asks for, close together. How the body has turned by the end of the
+  /// step is kept from one to the next, which mostly asks with the same omega'.
+  struct Moving {
+    Vector<Dim> position = Vector<Dim>::Zero();  ///< at the start of the step
+    Twist<Dim> row_scale = Twist<Dim>::Zero();
+    Angular<Dim> omega = Angular<Dim>::Constant(kNotANumber);  ///< omega' that the others are for
     Rotation<Dim> rotation{};
     Inertia<Dim> jacobian = Inertia<Dim>::Zero();  ///< d(theta)/d(omega')
     bool has_jacobian = false;
@@ -85,7 +89,7 @@ class StepBodies {
     return inertial_[static_cast<std::size_t>(selected_[static_cast<std::size_t>(place)])];
   }
   void prepare(std::size_t body, const Scale& scale);
-  [[nodiscard]] Turned& turned(std::size_t body, const Angular<Dim>& omega) const;
+  [[nodiscard]] Moving& turned(std::size_t body, const Angular<Dim>& omega) const;
 
   const Scene<Dim>& scene_;
   double h_ = 0.0;
@@ -94,7 +98,7 @@ class StepBodies {
   std::vector<Inertial> inertial_;
   std::vector<char> fixed_;  ///< close together, since each contact asks; the scene's bodies are large
   std::vector<int> place_;   ///< -1 for a fixed body; not meant for one that is not selected
-  mutable std::vector<Turned> turned_;
+  mutable std::vector<Moving> moving_;
   std::vector<int> selected_;
 };
 

@@ -7,6 +7,13 @@ namespace touchstone {
 template <int Dim>
 void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
                                   Eigen::VectorXd& z) const {
+  set_points(i, poses(i, z), a_1, a_2, z);
+}
+
+/// @param pose  of its bodies, which z leads to
+template <int Dim>
+void StepProblem<Dim>::set_points(std::size_t i, const std::array<Pose<Dim>, 2>& pose, const Vector<Dim>& a_1,
+                                  const Vector<Dim>& a_2, Eigen::VectorXd& z) const {
   const ContactPair<Dim>& pair = contacts_[i];
   const ContactLayout& at = layout_.contact(i);
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
@@ -16,9 +23,8 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
     const Vector<Dim>& relative = first ? a_1 : a_2;
     if (side.kind == SideKind::plane) {
       const PlaneAtStart<Dim>& plane = prepared_[i].plane[k];
-      const Pose<Dim> pose = bodies_.pose(first ? pair.body_1 : pair.body_2, prepared_[i].origin, z);
-      const PlaneChart<Dim> chart = pose.rotation.matrix() * plane.basis;
-      z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose));
+      const PlaneChart<Dim> chart = pose[k].rotation.matrix() * plane.basis;
+      z.template segment<Dim - 1>(column) = chart.transpose() * (relative - plane.moved_foot(pose[k]));
     } else {
       z.template segment<Dim>(column) = relative;
     }
@@ -26,15 +32,31 @@ void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const V
 }
 
 template <int Dim>
-void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
-  const ContactPair<Dim>& pair = contacts_[i];
+std::array<Pose<Dim>, 2> StepProblem<Dim>::poses(std::size_t i, const Eigen::VectorXd& z) const {
   const Vector<Dim>& origin = prepared_[i].origin;
-  const std::array<Pose<Dim>, 2> pose = {bodies_.pose(pair.body_1, origin, z),
-                                         bodies_.pose(pair.body_2, origin, z)};
+  return {bodies_.pose(contacts_[i].body_1, origin, z), bodies_.pose(contacts_[i].body_2, origin, z)};
+}
+
+template <int Dim>
+void StepProblem<Dim>::find_points(std::size_t i, Eigen::VectorXd& z, FindClosest<Dim> find) {
+  place_points(i, poses(i, z), find, z);
+}
+
+template <int Dim>
+void StepProblem<Dim>::evaluate_anew(std::size_t i, Eigen::VectorXd& z, ContactState<Dim>& state) {
+  place_state(i, z, state);
+  place_points(i, {state.body[0].pose, state.body[1].pose}, &closest_points<Dim>, z);
+  evaluate_contact(contacts_[i], prepared_[i], layout_.contact(i), z, state);
+}
+
+template <int Dim>
+void StepProblem<Dim>::place_points(std::size_t i, const std::array<Pose<Dim>, 2>& pose,
+                                    FindClosest<Dim> find, Eigen::VectorXd& z) {
+  const ContactPair<Dim>& pair = contacts_[i];
   const auto closest = find(*pair.side_1.surface, pose[0], *pair.side_2.surface, pose[1]);
   // The direction of t stays while it can, whatever the law's own does: friction in z is told in it.
   prepared_[i].reference = usable_reference(closest.normal, prepared_[i].reference);
-  set_points(i, closest.a_1, closest.a_2, z);
+  set_points(i, pose, closest.a_1, closest.a_2, z);
   set_multipliers(i, pose, closest, z);
 }
 
@@ -59,6 +81,8 @@ template void StepProblem<2>::set_points(std::size_t, const Vector<2>&, const Ve
                                          Eigen::VectorXd&) const;
 template void StepProblem<3>::set_points(std::size_t, const Vector<3>&, const Vector<3>&,
                                          Eigen::VectorXd&) const;
+template void StepProblem<2>::evaluate_anew(std::size_t, Eigen::VectorXd&, ContactState<2>&);
+template void StepProblem<3>::evaluate_anew(std::size_t, Eigen::VectorXd&, ContactState<3>&);
 template void StepProblem<2>::find_points(std::size_t, Eigen::VectorXd&, FindClosest<2>);
 template void StepProblem<3>::find_points(std::size_t, Eigen::VectorXd&, FindClosest<3>);
 

@@ -152,11 +152,27 @@ void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z) c
   evaluate_contact(pair, prepared_[i], layout_.contact(i), z, state);
 }
 
+template <int Dim>
+void StepProblem<Dim>::evaluate_state(std::size_t i, const Eigen::VectorXd& z,
+                                      ContactState<Dim>& state) const {
+  place_state(i, z, state);
+  evaluate_contact(contacts_[i], prepared_[i], layout_.contact(i), z, state);
+}
+
+/// Bodies at the end of the step, and room for what is evaluated there.
+template <int Dim>
+void StepProblem<Dim>::place_state(std::size_t i, const Eigen::VectorXd& z, ContactState<Dim>& state) const {
+  const ContactPair<Dim>& pair = contacts_[i];
+  state.side[0].reserve(pair.side_1);
+  state.side[1].reserve(pair.side_2);
+  bodies_.place_body(pair.body_1, prepared_[i].origin, z, state.body[0]);
+  bodies_.place_body(pair.body_2, prepared_[i].origin, z, state.body[1]);
+}
+
 /// What derivatives of contact i need beyond evaluate_state().
 template <int Dim>
-void StepProblem<Dim>::differentiate_state(std::size_t i) const {
+void StepProblem<Dim>::differentiate_state(std::size_t i, ContactState<Dim>& state) const {
   const ContactPair<Dim>& pair = contacts_[i];
-  ContactState<Dim>& state = states_[i];
   bodies_.differentiate_body(pair.body_1, state.body[0]);
   bodies_.differentiate_body(pair.body_2, state.body[1]);
   differentiate_contact(pair, prepared_[i], state);
@@ -189,7 +205,8 @@ void StepProblem<Dim>::place_bodies(std::array<int, 2> body, Eigen::Index own, S
 }
 
 template <int Dim>
-void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const {
+void StepProblem<Dim>::contact_block(std::size_t i, ContactState<Dim>& state, bool derivatives,
+                                     StepBlock<Dim>& block) const {
   const ContactPair<Dim>& pair = contacts_[i];
   const Eigen::Index points = pair.side_1.point_unknowns() + pair.side_2.point_unknowns();
   const Eigen::Index multipliers = pair.side_1.multipliers() + pair.side_2.multipliers();
@@ -202,11 +219,10 @@ void StepProblem<Dim>::contact_block(std::size_t i, bool derivatives, StepBlock<
   block.at.slip = block.at.normal + 1;
   block.at.multipliers_1 = block.at.slip + 1;
   block.at.multipliers_2 = block.at.multipliers_1 + pair.side_1.multipliers();
-  ContactState<Dim>& state = states_[i];
   for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) state.body[k].column = block.column[k];
   block.f.head(block.own).setZero();
   if (derivatives) {
-    differentiate_state(i);
+    differentiate_state(i, state);
     block.j.topLeftCorner(block.size, block.size).setZero();
   }
   contact_rows(pair, prepared_[i], block.at, row_options_, state, block.f, derivatives ? &block.j : nullptr);
@@ -221,7 +237,7 @@ void StepProblem<Dim>::contact_block_by_motion(std::size_t i, StepBlock<Dim>& bl
   block.j.block(block.at.friction, 0, kImpulses, block.own).setZero();
   block.j.block(0, block.at.friction, block.own, kImpulses).setZero();
   block.j.template block<kImpulses, kImpulses>(block.at.friction, block.at.friction).setZero();
-  differentiate_state(i);
+  differentiate_state(i, states_[i]);
   load_rows_by_motion(contacts_[i], prepared_[i], block.at, row_options_, states_[i], block.f, block.j,
                       motions);
 }
@@ -232,12 +248,11 @@ std::array<int, 2> StepProblem<Dim>::places(std::size_t i) const {
 }
 
 template <int Dim>
-bool StepProblem<Dim>::is_spurious(std::size_t i) const {
+bool StepProblem<Dim>::is_spurious(const ContactState<Dim>& state) const {
   constexpr double kThrough = 1e-6;  // of L; overlap that no tolerance explains
-  const ContactState<Dim>& state = states_[i];
   return state.side[0].normal.dot(state.frame.normal) > 0 ||
          (row_options_.gap == GapFunction::workspace && state.p <= 0 &&
-          separation(i) < -kThrough * row_options_.scale.length);
+          state.distance() < -kThrough * row_options_.scale.length);
 }
 
 template <int Dim>
@@ -265,7 +280,7 @@ void StepProblem<Dim>::evaluate(const Eigen::VectorXd& z, Eigen::VectorXd& f,
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     evaluate_state(i, z);
-    if (jacobian != nullptr) differentiate_state(i);
+    if (jacobian != nullptr) differentiate_state(i, states_[i]);
     contact_rows(contacts_[i], prepared_[i], layout_.contact(i), row_options_, states_[i], f, jacobian);
   }
 }

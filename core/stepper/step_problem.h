@@ -93,21 +93,29 @@ class StepProblem final : public MixedComplementarityProblem {
 
   /// Evaluates contact i at z, for contact_block().
   void evaluate_state(std::size_t i, const Eigen::VectorXd& z) const;
+  /// The same into a state of the caller's, which may have been another contact's: over thousands of
+  /// contacts, which have 2 kB of state each, it is memory that evaluations wait for.
+  void evaluate_state(std::size_t i, const Eigen::VectorXd& z, ContactState<Dim>& state) const;
+  /// find_points(), and the contact there into a state of the caller's.
+  void evaluate_anew(std::size_t i, Eigen::VectorXd& z, ContactState<Dim>& state);
   /// Rows of contact i where it was evaluated last, and their derivatives if asked for.
-  void contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const;
+  void contact_block(std::size_t i, bool derivatives, StepBlock<Dim>& block) const {
+    contact_block(i, states_[i], derivatives, block);
+  }
+  /// The same of a state of the caller's.
+  void contact_block(std::size_t i, ContactState<Dim>& state, bool derivatives, StepBlock<Dim>& block) const;
   /// After contact_block() at the same z: what load_rows_by_motion() gives.
   void contact_block_by_motion(std::size_t i, StepBlock<Dim>& block, MotionJacobian<Dim>& motions) const;
   /// Numbers of the moving bodies of contact i in this island, -1 for a fixed one.
   [[nodiscard]] std::array<int, 2> places(std::size_t i) const;
   /// psi [m] of contact i where it was evaluated last.
-  [[nodiscard]] double separation(std::size_t i) const {
-    return states_[i].frame.normal.dot(states_[i].separation);
-  }
+  [[nodiscard]] double separation(std::size_t i) const { return states_[i].distance(); }
   /// Whether the closest points of contact i, where it was evaluated last, satisfy the rows and are none:
   /// - those of a smooth side ask for N_1 along n only, which its farthest point satisfies too (Eq. 9 does
   /// not);
   /// - f(a_2) >= 0 (Eq. 6) holds of a body that is through another one, since a_2 is then outside again.
-  [[nodiscard]] bool is_spurious(std::size_t i) const;
+  [[nodiscard]] bool is_spurious(std::size_t i) const { return is_spurious(states_[i]); }
+  [[nodiscard]] bool is_spurious(const ContactState<Dim>& state) const;
   /// Counts as the residual of such points: N_1 is n where it should be -n.
   static constexpr double kSpuriousResidual = 2.0;
   /// Contact i where it was evaluated last.
@@ -171,9 +179,15 @@ class StepProblem final : public MixedComplementarityProblem {
  private:
   void prepare_contact(std::size_t i);
   void assign_bounds() const;
-  void differentiate_state(std::size_t i) const;
+  void differentiate_state(std::size_t i, ContactState<Dim>& state) const;
   [[nodiscard]] std::array<BodyAtEnd<Dim>, 2> joint_bodies(const JointRows<Dim>& joint,
                                                            const Eigen::VectorXd& z) const;
+  void place_state(std::size_t i, const Eigen::VectorXd& z, ContactState<Dim>& state) const;
+  [[nodiscard]] std::array<Pose<Dim>, 2> poses(std::size_t i, const Eigen::VectorXd& z) const;
+  void place_points(std::size_t i, const std::array<Pose<Dim>, 2>& pose, FindClosest<Dim> find,
+                    Eigen::VectorXd& z);
+  void set_points(std::size_t i, const std::array<Pose<Dim>, 2>& pose, const Vector<Dim>& a_1,
+                  const Vector<Dim>& a_2, Eigen::VectorXd& z) const;
   void set_multipliers(std::size_t i, const std::array<Pose<Dim>, 2>& pose, const ClosestPoints<Dim>& closest,
                        Eigen::VectorXd& z) const;
   void place_bodies(std::array<int, 2> body, Eigen::Index own, StepBlock<Dim>& block) const;

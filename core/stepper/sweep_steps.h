@@ -34,13 +34,12 @@ struct SweepSteps {
   double friction = 0.0;  ///< y per [m/s]: by the largest of the slips that a unit of y leads to
 };
 
-/// Steps of contact i where the problem evaluated it last.
+/// Steps of contact i of the problem, as it is evaluated in `state`.
 /// @param bodies  how its two bodies answer
 template <int Dim>
-SweepSteps sweep_steps(const StepProblem<Dim>& problem, std::size_t i,
+SweepSteps sweep_steps(const StepProblem<Dim>& problem, std::size_t i, const ContactState<Dim>& state,
                        const std::array<BodyResponse<Dim>, 2>& bodies) {
   constexpr int kTangent = Dimension<Dim>::tangent;
-  const ContactState<Dim>& state = problem.state(i);
   const PreparedContact<Dim>& prepared = problem.prepared(i);
   const Vector<Dim>& normal = state.frame.normal;
   // How velocities answer to an impulse at the contact and to a moment about its normal.

@@ -97,7 +97,7 @@ struct Fixture {
     StepBlock<Dim> block;
     for (std::size_t i = 0; i < contacts().size(); ++i) {
       problem.evaluate_state(i, z);
-      sweeps.freeze(problem, i, z);
+      sweeps.freeze(problem, i, problem.state(i), z);
       problem.contact_block(i, false, block);
       for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
         if (block.place[k] >= 0)
