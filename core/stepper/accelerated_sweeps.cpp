@@ -1,7 +1,9 @@
 #include "core/stepper/accelerated_sweeps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace touchstone {
 
@@ -14,6 +16,14 @@ constexpr double kLeastSize = 1e-8;
 /// Of mu p: a shorter anchor counts as 0, which is less than single precision tells of friction that slides;
 /// mu p over its length might not be a number any more.
 constexpr double kLeastAnchor = 1e-7;
+
+template <typename Derived>
+std::array<float, 3> in_space(const Eigen::MatrixBase<Derived>& v) {
+  std::array<float, 3> result{};
+  const auto values = in_floats(v);
+  std::copy(values.data(), values.data() + values.size(), result.begin());
+  return result;
+}
 
 }  // namespace
 
@@ -30,8 +40,9 @@ void AcceleratedSweeps<Dim>::bind(const StepProblem<Dim>& problem) {
           in_lanes<kFirstTurn>(responses_[b].inverse_inertia.col(c));
   }
   contacts_.resize(problem.contacts().size());
+  bodies_of_contact_.resize(contacts_.size());
+  last_change_.resize(contacts_.size());
   starts_.resize(contacts_.size());
-  courses_.resize(contacts_.size());
 }
 
 template <int Dim>
@@ -40,20 +51,20 @@ void AcceleratedSweeps<Dim>::freeze(const StepProblem<Dim>& problem, std::size_t
   const PreparedContact<Dim>& prepared = problem.prepared(i);
   const double mu = problem.contacts()[i].law.mu;
   const std::array<int, 2> place = problem.places(i);
-  Contact& contact = contacts_[i];
+  Contact<float>& contact = contacts_[i];
   contact.unit = static_cast<float>(prepared.mass * problem.scale().velocity);
   contact.mu = static_cast<float>(mu);
-  contact.normal = in_lanes(state.frame.normal);
-  contact.along = in_lanes(prepared.semi_axes[0] * state.frame.tangents.col(0));
+  contact.normal = in_space(state.frame.normal);
+  contact.along = in_space(prepared.semi_axes[0] * state.frame.tangents.col(0));
   if constexpr (Dim == 3) {
-    contact.across = in_lanes(prepared.semi_axes[1] * state.frame.tangents.col(1));
+    contact.across = in_space(prepared.semi_axes[1] * state.frame.tangents.col(1));
     contact.spinning = static_cast<float>(prepared.semi_axes[2]);
   }
   std::array<BodyResponse<Dim>, 2> responses;
   for (const std::size_t k : kSides) {
-    contact.arm[k] = in_lanes(state.side[k].arm);
-    contact.body[k] = static_cast<std::size_t>(place[k] + 1);
-    responses[k] = responses_[contact.body[k]];
+    contact.arm[k] = in_space(state.side[k].arm);
+    bodies_of_contact_[i][k] = static_cast<std::size_t>(place[k] + 1);
+    responses[k] = responses_[bodies_of_contact_[i][k]];
   }
 
   Start& start = starts_[i];
@@ -70,23 +81,25 @@ template <int Dim>
 void AcceleratedSweeps<Dim>::start(std::span<const std::size_t> contacts, double size) {
   size_ = std::max(size, kLeastSize);
   for (const std::size_t i : contacts) {
-    Contact& contact = contacts_[i];
+    Contact<float>& contact = contacts_[i];
     const Start& start = starts_[i];
     const FrictionVector<Dim> stick = -start.steps.friction * start.w;
     FrictionVector<Dim> anchor = start.y + stick;
     if (anchor.norm() <= kLeastAnchor * start.radius) anchor.setZero();
     const double length = anchor.norm();
     const double part = length > 0 ? start.radius / length : 0.0;
-    const auto step = static_cast<float>(start.steps.friction);
-    contact.steps = Lanes{step, step, step, static_cast<float>(start.steps.normal)};
-    contact.stick = in_lanes(stick / size_);
+    contact.friction_step = static_cast<float>(start.steps.friction);
+    contact.normal_step = static_cast<float>(start.steps.normal);
+    const std::array<float, 3> friction = in_space(stick / size_);
+    std::copy(friction.begin(), friction.end(), contact.stick.begin());
     contact.stick[3] = static_cast<float>(-start.steps.normal * start.gap / size_);
-    contact.anchor = in_lanes(anchor / size_);
-    contact.slide = in_lanes((part * anchor - start.y) / size_);
+    contact.anchor = in_space(anchor / size_);
+    contact.slide = in_space((part * anchor - start.y) / size_);
     contact.length = static_cast<float>(length / size_);
     contact.excess = static_cast<float>((length - start.radius) * (length + start.radius) / (size_ * size_));
     contact.load = static_cast<float>(start.p / size_);
-    contact.change = no_lanes();
+    contact.part = static_cast<float>(part);
+    contact.change = {};
   }
 }
 
@@ -103,27 +116,86 @@ template <int Dim>
 int AcceleratedSweeps<Dim>::run(std::span<const std::size_t> contacts, int limit, double tolerance,
                                 SweepAcceleration::Kind kind) {
   const auto small = static_cast<float>(tolerance / size_);
+  group(contacts);
   acceleration_.begin(kind);
-  for (int sweeps = 2;; sweeps += 2) {
-    for (const std::size_t i : contacts) {
-      contacts_[i].before = contacts_[i].change;
-      sweep(contacts_[i]);
+  int sweeps = 0;
+  for (;;) {
+    sweeps += 2;
+    for (Group& group : groups_) {
+      group.before = group.contact.change;
+      sweep(group);
     }
-    float largest = 0;
-    for (auto at = contacts.rbegin(); at != contacts.rend(); ++at) {
-      Contact& contact = contacts_[*at];
-      sweep(contact);
-      const Lanes change = contact.change - contact.before;
-      courses_[*at].record(acceleration_, of_lanes<4>(change));
-      largest = std::max(largest, largest_size(change));
+    Lanes largest_change = no_lanes();
+    for (std::size_t g = groups_.size(); g-- > 0;) {
+      Group& group = groups_[g];
+      sweep(group);
+      for (std::size_t r = 0; r < 4; ++r) {
+        group.before[r] = group.contact.change[r] - group.before[r];
+        largest_change = larger(largest_change, sizes(group.before[r]));
+      }
+      courses_[g].record(acceleration_, entries(group.before));
     }
-    if (!(largest > small) || sweeps >= limit) return sweeps;
+    if (!(largest(largest_change) > small) || sweeps >= limit) break;
     acceleration_.decide();
-    for (const std::size_t i : contacts) {
-      const Eigen::Vector4f all = courses_[i].step(acceleration_);
-      const Lanes step{all[0], all[1], all[2], all[3]};
-      contacts_[i].change += step;
-      push(contacts_[i], step);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Course::Short all = courses_[g].step(acceleration_);
+      std::array<Lanes, 4> step;
+      std::memcpy(&step, all.data(), sizeof step);
+      for (std::size_t r = 0; r < 4; ++r) groups_[g].contact.change[r] += step[r];
+      push(groups_[g], step);
+    }
+  }
+  ungroup();
+  return sweeps;
+}
+
+template <int Dim>
+typename AcceleratedSweeps<Dim>::Course::Short AcceleratedSweeps<Dim>::entries(
+    const std::array<Lanes, 4>& change) {
+  typename Course::Short all;
+  std::memcpy(all.data(), &change, sizeof change);
+  return all;
+}
+
+/// Puts contacts into groups, in which they go on from where they are.
+template <int Dim>
+void AcceleratedSweeps<Dim>::group(std::span<const std::size_t> contacts) {
+  order_.begin(bodies_.size());
+  groups_.clear();
+  for (const std::size_t i : contacts) {
+    const std::size_t place = order_.place(bodies_of_contact_[i]);
+    if (place / kLanes == groups_.size()) groups_.emplace_back();
+    Group& group = groups_[place / kLanes];
+    group.member[place % kLanes] = i;
+    for (const std::size_t k : kSides) group.body[k][place % kLanes] = bodies_of_contact_[i][k];
+  }
+  courses_.assign(groups_.size(), {});
+  constexpr std::size_t kFours = sizeof(Contact<float>) / sizeof(Lanes);
+  using Fours = std::array<Lanes, kFours>;
+  for (Group& group : groups_) {
+    std::array<std::array<Lanes, kLanes>, kFours> rows{};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (group.member[lane] == kNone) continue;
+      const auto fours = std::bit_cast<Fours>(contacts_[group.member[lane]]);
+      for (std::size_t r = 0; r < kFours; ++r) rows[r][lane] = fours[r];
+    }
+    for (std::array<Lanes, kLanes>& four : rows) transpose(four);
+    group.contact = std::bit_cast<Contact<Lanes>>(rows);
+  }
+}
+
+/// What has changed of contacts, back from their groups.
+template <int Dim>
+void AcceleratedSweeps<Dim>::ungroup() {
+  for (const Group& group : groups_) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::size_t i = group.member[lane];
+      if (i == kNone) continue;
+      last_change_[i] = 0;
+      for (std::size_t r = 0; r < 4; ++r) {
+        contacts_[i].change[r] = group.contact.change[r][lane];
+        last_change_[i] = std::max(last_change_[i], std::abs(group.before[r][lane]));
+      }
     }
   }
 }
@@ -131,55 +203,94 @@ int AcceleratedSweeps<Dim>::run(std::span<const std::size_t> contacts, int limit
 /// The impulses that a contact's own rows ask for. They may be much larger than what changes of them, so that
 /// no change may be the difference of two terms of their size.
 template <int Dim>
-inline void AcceleratedSweeps<Dim>::sweep(Contact& contact) {
-  const Body& first = bodies_[contact.body[0]];
-  const Body& second = bodies_[contact.body[1]];
-  const Lanes velocity = first.velocity - second.velocity + cross(first.spin, contact.arm[0]) -
-                         cross(second.spin, contact.arm[1]);
-  const Lanes spin = first.spin - second.spin;
-  const Lanes relative = sums(contact.along * velocity, contact.across * velocity,
-                              contact.spinning * contact.normal * spin, contact.normal * velocity);
-  const Lanes move = contact.change - contact.steps * relative;
-  const Lanes free = move + contact.stick;
-  const float p = std::max(-contact.load, free[3]);
-  if (p == contact.change[3] && p == -contact.load) return;  // most that are near
-
-  // Of anchor + move, with which y is bounded, how much longer it is than anchor, and than mu p.
-  const Lanes moved = of_space(move);
-  const float lengthening_2 = sum(moved * (2 * contact.anchor + moved));  // of squares
-  const float widening = contact.mu * p;
-  const float radius = contact.mu * contact.load;
-  const float excess = contact.excess + lengthening_2 - widening * (2 * radius + widening);
-  const Lanes whole = contact.anchor + moved;
-  const float length = excess > 0 ? std::sqrt(sum(whole * whole)) : 0.0F;
-  Lanes impulse = of_space(free);
-  if (length > 0) {
-    const float part = contact.length > 0 ? radius / contact.length : 0.0F;
-    const float growth = widening - part * (lengthening_2 / (length + contact.length));
-    impulse = ((radius + widening) * moved + growth * contact.anchor) / length + contact.slide;
+inline void AcceleratedSweeps<Dim>::sweep(Group& group) {
+  Contact<Lanes>& contact = group.contact;
+  std::array<Lanes, kLanes> velocity, spin_1, spin_2;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const Body& first = bodies_[group.body[0][lane]];
+    const Body& second = bodies_[group.body[1][lane]];
+    velocity[lane] = first.velocity - second.velocity;
+    spin_1[lane] = first.spin;
+    spin_2[lane] = second.spin;
   }
-  impulse += Lanes{0, 0, 0, p};
-  const Lanes change = impulse - contact.change;
-  contact.change = impulse;
-  push(contact, change);
+  transpose(velocity);
+  transpose(spin_1);
+  transpose(spin_2);
+  const Space turn_1 = cross({spin_1[0], spin_1[1], spin_1[2]}, contact.arm[0]);
+  const Space turn_2 = cross({spin_2[0], spin_2[1], spin_2[2]}, contact.arm[1]);
+  Space relative, spin;
+  for (std::size_t c = 0; c < 3; ++c) {
+    relative[c] = velocity[c] + turn_1[c] - turn_2[c];
+    spin[c] = spin_1[c] - spin_2[c];
+  }
+  const Space slip = {dot(contact.along, relative), dot(contact.across, relative),
+                      contact.spinning * dot(contact.normal, spin)};
+  const Lanes closing = dot(contact.normal, relative);
+  const Lanes p = larger(contact.change[3] - contact.normal_step * closing + contact.stick[3], -contact.load);
+  const LaneMask is_off = (p == contact.change[3]) & (p == -contact.load);
+  if (all(is_off)) return;  // most that are near
+
+  // Of anchor + moved, with which y is bounded, how much longer it is than anchor, and than mu p.
+  Space moved;
+  Lanes lengthening_2 = no_lanes();  // of squares
+  Lanes length_2 = no_lanes();
+  for (std::size_t c = 0; c < 3; ++c) {
+    moved[c] = contact.change[c] - contact.friction_step * slip[c];
+    lengthening_2 += moved[c] * (2 * contact.anchor[c] + moved[c]);
+    length_2 += (contact.anchor[c] + moved[c]) * (contact.anchor[c] + moved[c]);
+  }
+  const Lanes widening = contact.mu * p;
+  const Lanes radius = contact.mu * contact.load;
+  const Lanes excess = contact.excess + lengthening_2 - widening * (2 * radius + widening);
+  const Lanes length = roots(length_2);
+  const LaneMask slides = (excess > 0) & (length > 0);
+  const Lanes growth = widening - contact.part * (lengthening_2 / (length + contact.length));
+  std::array<Lanes, 4> change;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Lanes bounded =
+        ((radius + widening) * moved[c] + growth * contact.anchor[c]) / length + contact.slide[c];
+    const Lanes y = slides ? bounded : moved[c] + contact.stick[c];
+    change[c] = is_off ? no_lanes() : y - contact.change[c];
+    contact.change[c] += change[c];
+  }
+  change[3] = p - contact.change[3];
+  contact.change[3] = p;
+  push(group, change);
 }
 
-/// Adds what a change of a contact's impulses does to its bodies' velocities.
+/// Adds what changes of the contacts' impulses do to their bodies' velocities.
 template <int Dim>
-inline void AcceleratedSweeps<Dim>::push(const Contact& contact, Lanes change) {
-  const Lanes impulse = contact.unit * change;
-  const Lanes force = impulse[0] * contact.along + impulse[1] * contact.across + impulse[3] * contact.normal;
-  const Lanes moment = impulse[2] * contact.spinning * contact.normal;
+inline void AcceleratedSweeps<Dim>::push(const Group& group, const std::array<Lanes, 4>& change) {
+  const Contact<Lanes>& contact = group.contact;
+  std::array<Lanes, 4> impulse;
+  for (std::size_t r = 0; r < 4; ++r) impulse[r] = contact.unit * change[r];
+  Space push, moment;
+  for (std::size_t c = 0; c < 3; ++c) {
+    push[c] = impulse[0] * contact.along[c] + impulse[1] * contact.across[c] + impulse[3] * contact.normal[c];
+    moment[c] = impulse[2] * contact.spinning * contact.normal[c];
+  }
+  const Space lever_1 = cross(contact.arm[0], push);
+  const Space lever_2 = cross(contact.arm[1], push);
+  std::array<Lanes, kLanes> force = {push[0], push[1], push[2], no_lanes()};
+  std::array<Lanes, kLanes> torque_1 = {lever_1[0] + moment[0], lever_1[1] + moment[1],
+                                        lever_1[2] + moment[2], no_lanes()};
+  std::array<Lanes, kLanes> torque_2 = {lever_2[0] + moment[0], lever_2[1] + moment[1],
+                                        lever_2[2] + moment[2], no_lanes()};
+  transpose(force);
+  transpose(torque_1);
+  transpose(torque_2);
   const auto turn = [](const Body& body, Lanes torque) {
     return torque[0] * body.inverse_inertia[0] + torque[1] * body.inverse_inertia[1] +
            torque[2] * body.inverse_inertia[2];
   };
-  Body& first = bodies_[contact.body[0]];
-  Body& second = bodies_[contact.body[1]];
-  first.velocity += first.inverse_mass * force;
-  first.spin += turn(first, cross(contact.arm[0], force) + moment);
-  second.velocity -= second.inverse_mass * force;
-  second.spin -= turn(second, cross(contact.arm[1], force) + moment);
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    Body& first = bodies_[group.body[0][lane]];
+    Body& second = bodies_[group.body[1][lane]];
+    first.velocity += first.inverse_mass * force[lane];
+    first.spin += turn(first, torque_1[lane]);
+    second.velocity -= second.inverse_mass * force[lane];
+    second.spin -= turn(second, torque_2[lane]);
+  }
 }
 
 template <int Dim>
@@ -192,7 +303,7 @@ void AcceleratedSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<co
         size_ * of_lanes<kAngular, kFirstTurn>(bodies_[b + 1].spin).template cast<double>();
   }
   for (const std::size_t i : contacts) {
-    const Contact& contact = contacts_[i];
+    const Contact<float>& contact = contacts_[i];
     const ContactLayout& at = problem.layout().contact(i);
     auto y = z.template segment<kFriction>(at.friction);
     if (contact.change[3] == -contact.load) {
@@ -200,7 +311,8 @@ void AcceleratedSweeps<Dim>::write(const StepProblem<Dim>& problem, std::span<co
       y.setZero();
     } else {
       z[at.normal] = std::max(0.0, z[at.normal] + size_ * static_cast<double>(contact.change[3]));
-      y += size_ * of_lanes<kFriction>(contact.change).template cast<double>();
+      for (int c = 0; c < kFriction; ++c)
+        y[c] += size_ * static_cast<double>(contact.change[static_cast<std::size_t>(c)]);
     }
   }
 }

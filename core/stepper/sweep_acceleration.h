@@ -53,8 +53,8 @@ class SweepAcceleration {
         const Short difference = change - change_;
         changes_.row(all.slot_) = difference.transpose();
         results_.col(all.slot_) = move_ + difference;
-        all.column_ += (changes_ * difference).template cast<double>();
-        all.right_side_ += (changes_ * change).template cast<double>();
+        all.column_ += changes_.lazyProduct(difference).template cast<double>();
+        all.right_side_ += changes_.lazyProduct(change).template cast<double>();
       }
       all.squared_ += static_cast<double>(change.squaredNorm());
       change_ = change;
@@ -62,7 +62,7 @@ class SweepAcceleration {
     /// What is to be added to this block. To be asked for once in an iteration.
     [[nodiscard]] Short step(const SweepAcceleration& all) {
       Short step = all.factor_ * move_;
-      if (all.kind_ == Kind::anderson) step = -(results_ * all.weights_);
+      if (all.kind_ == Kind::anderson) step = -results_.lazyProduct(all.weights_);
       move_ = step + change_;
       return step;
     }
