@@ -7,7 +7,13 @@ namespace touchstone {
 template <int Dim>
 void StepProblem<Dim>::set_points(std::size_t i, const Vector<Dim>& a_1, const Vector<Dim>& a_2,
                                   Eigen::VectorXd& z) const {
-  set_points(i, poses(i, z), a_1, a_2, z);
+  std::array<Pose<Dim>, 2> pose;  // of planes, which only are asked for
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+    const Side<Dim>& side = k == 0 ? contacts_[i].side_1 : contacts_[i].side_2;
+    const int body = k == 0 ? contacts_[i].body_1 : contacts_[i].body_2;
+    if (side.kind == SideKind::plane) pose[k] = bodies_.pose(body, prepared_[i].origin, z);
+  }
+  set_points(i, pose, a_1, a_2, z);
 }
 
 /// @param pose  of its bodies, which z leads to
